@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * command.h - the last interval closed with the law and solved for the inlet flux (MF1).
+ *
+ * The command is held for a period, so it is aimed at the middle of the hold: what will the buffer
+ * hold when the material fed half a period from now arrives? On that last interval, which is not
+ * yet on the belt, the law itself says what will arrive. Then (MF1) is the march's own last node,
+ * solved for the density that must be fed:
+ *
+ *     inlet_flux = (slowness(arrival)*u(Q*, p1) - rework)/(survival*slowness(feeding))
+ *
+ * Cost: two evaluations of the law, one division.
+ */
+#ifndef BELT_COMMAND_H
+#define BELT_COMMAND_H
+
+#include "nominal_law.h"
+#include "predictor.h"
+
+/** What the step hands to the plant. */
+typedef enum {
+    BELT_MODE_OFF,      /**< nothing is fed: no level has been trusted yet. */
+    BELT_MODE_AUTOMATIC /**< the law is in command. */
+} belt_mode_t;
+
+typedef struct {
+    belt_real_t inlet_flux; /**< U: flux to feed until the next step [parts/s], 0 ... inlet_flux_max,
+                                 always finite. */
+    belt_mode_t mode;       /**< who is in command. */
+    uint32_t error_bits;    /**< BELT_ERROR_... of measurement.h: inputs not trusted in this step. */
+} belt_command_t;
+
+/** Flux within [0, limit]; anything that is no number is 0 [parts/s]. */
+belt_real_t belt_command_limit(belt_real_t flux, belt_real_t limit);
+
+/** The inlet flux that lets the nominal law act at the outlet (MF1), before limits [parts/s]. */
+belt_real_t belt_command_solve(const belt_prediction_t *prediction, const belt_line_t *line,
+                               const belt_level_history_t *history, const belt_nominal_law_t *law,
+                               const belt_present_t *present);
+
+#endif

@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: MIT */
+#include "config.h"
+
+static belt_real_t least(belt_real_t a, belt_real_t b) {
+    return (a < b) ? a : b;
+}
+
+/** The greatest loss rate, or the first value that is negative or no number. */
+static belt_real_t worst_loss_rate(const belt_config_t *config) {
+    belt_real_t worst = BELT_REAL(0);
+    for (uint16_t i = 0; (i < config->loss_count) && (i < BELT_LOSS_CAPACITY); ++i) {
+        const belt_real_t rate = config->loss_rate[i];
+        if (!(rate >= BELT_REAL(0))) {
+            return rate;
+        }
+        worst = (rate > worst) ? rate : worst;
+    }
+    return worst;
+}
+
+/** Mean of C(x) along the belt [1/s]: trapezoids between equally spaced values. */
+static belt_real_t mean_loss_rate(const belt_config_t *config) {
+    if (config->loss_count <= 1) {
+        return config->loss_rate[0];
+    }
+    belt_real_t sum = BELT_REAL(0);
+    for (uint16_t i = 0; (i + 1 < config->loss_count) && (i + 1 < BELT_LOSS_CAPACITY); ++i) {
+        sum += BELT_REAL(0.5) * (config->loss_rate[i] + config->loss_rate[i + 1]);
+    }
+    return sum / BELT_REAL(config->loss_count - 1);
+}
+
+belt_real_t belt_config_setpoint_flux(const belt_config_t *config) {
+    return config->level_setpoint / (config->connectivity * config->service_time);
+}
+
+belt_real_t belt_config_slope_min(const belt_config_t *config) {
+    const belt_real_t flux = belt_config_setpoint_flux(config);
+    const belt_real_t below = (config->nominal_flux_max - flux) / config->level_setpoint;
+    const belt_real_t above = flux / (config->level_capacity - config->level_setpoint);
+    return (below > above) ? below : above;
+}
+
+belt_real_t belt_config_slope(const belt_config_t *config) {
+    return (config->slope_kind == BELT_SLOPE_ABSOLUTE)
+               ? config->slope
+               : belt_config_slope_min(config) + config->slope;
+}
+
+/** 1 + tau Qmax/congestion_scale: how many times slower the fullest line is than the empty one. */
+static belt_real_t slowdown_max(const belt_config_t *config) {
+    return BELT_REAL(1) +
+           config->speed_window * config->level_capacity / config->congestion_scale;
+}
+
+belt_real_t belt_config_dead_time_max(const belt_config_t *config) {
+    return config->processing_time * config->belt_length * slowdown_max(config);
+}
+
+static belt_rule_t closed(belt_real_t lower, belt_real_t value, belt_real_t upper) {
+    const belt_rule_t rule = {value, lower, upper, false, false};
+    return rule;
+}
+
+static belt_rule_t dimension(belt_real_t value) {
+    return closed(BELT_DIMENSION_MIN, value, BELT_DIMENSION_MAX);
+}
+
+static belt_rule_t at_most(belt_real_t value, belt_real_t upper) {
+    return closed(-BELT_REAL_MAX, value, upper);
+}
+
+static belt_rule_t above(belt_real_t lower, belt_real_t value) {
+    belt_rule_t rule = closed(lower, value, BELT_REAL_MAX);
+    rule.lower_open = true;
+    return rule;
+}
+
+static belt_rule_t line_rule(const belt_config_t *config, belt_status_t code) {
+    switch (code) {
+        case BELT_BELT_LENGTH: return dimension(config->belt_length);
+        case BELT_PROCESSING_TIME: return dimension(config->processing_time);
+        case BELT_SPEED_WINDOW: return dimension(config->speed_window);
+        case BELT_CONGESTION_SCALE: return dimension(config->congestion_scale);
+        case BELT_CONNECTIVITY: return closed(BELT_DIMENSION_MIN, config->connectivity, BELT_REAL(1));
+        case BELT_SERVICE_RATE_MAX: return dimension(config->service_rate_max);
+        case BELT_SERVICE_TIME: return dimension(config->service_time);
+        case BELT_LEVEL_CAPACITY: return dimension(config->level_capacity);
+        case BELT_REWORK_RATE:
+            return closed(BELT_REAL(0), config->rework_rate, BELT_DIMENSION_MAX);
+        case BELT_LOSS_COUNT:
+            return closed(BELT_REAL(1), BELT_REAL(config->loss_count),
+                          BELT_REAL(BELT_LOSS_CAPACITY));
+        default: return closed(BELT_REAL(0), worst_loss_rate(config), BELT_DIMENSION_MAX);
+    }
+}
+
+static belt_rule_t discretisation_rule(const belt_config_t *config, belt_status_t code) {
+    const belt_real_t nodes = BELT_REAL(config->node_count);
+    const belt_real_t dwell_max = belt_config_dead_time_max(config) / nodes;
+    switch (code) {
+        case BELT_NODE_COUNT: return closed(BELT_REAL(4), nodes, BELT_REAL(BELT_NODE_CAPACITY));
+        case BELT_PERIOD: return dimension(config->period);
+        case BELT_PERIOD_PER_NODE:
+            return at_most(config->period, config->processing_time * config->belt_length / nodes);
+        case BELT_WINDOW_SHORT:
+            return closed(config->period, config->speed_window, BELT_REAL_MAX);
+        case BELT_WINDOW_LONG:
+            return at_most(config->speed_window / config->period + BELT_REAL(2),
+                           BELT_REAL(BELT_WINDOW_CAPACITY));
+        case BELT_DEAD_TIME:
+            return at_most(belt_config_dead_time_max(config) / config->period,
+                           BELT_REAL(BELT_DEAD_TIME_PERIODS));
+        case BELT_LOSS_EXPONENT:
+            return at_most(mean_loss_rate(config) * belt_config_dead_time_max(config),
+                           BELT_LOSS_EXPONENT_MAX);
+        case BELT_LOSS_PER_NODE:
+            return at_most(worst_loss_rate(config) * dwell_max, BELT_CHANGE_PER_NODE_MAX);
+        default:
+            return at_most(config->rework_rate * config->belt_length * dwell_max,
+                           BELT_CHANGE_PER_NODE_MAX);
+    }
+}
+
+static belt_rule_t law_rule(const belt_config_t *config, belt_status_t code) {
+    switch (code) {
+        case BELT_NOMINAL_FLUX_MAX:
+            return closed(BELT_DIMENSION_MIN, config->nominal_flux_max,
+                          least(config->level_capacity / config->service_time,
+                                config->service_rate_max) /
+                              config->connectivity);
+        case BELT_LEVEL_SETPOINT: {
+            belt_rule_t rule = above(BELT_REAL(0), config->level_setpoint);
+            rule.upper = config->connectivity * config->nominal_flux_max * config->service_time;
+            rule.upper_open = true;
+            return rule;
+        }
+        case BELT_SLOPE_KIND:
+            return closed(BELT_REAL(BELT_SLOPE_MARGIN), BELT_REAL(config->slope_kind),
+                          BELT_REAL(BELT_SLOPE_ABSOLUTE));
+        case BELT_SETPOINT_SLOPE:
+            return above(belt_config_slope_min(config), belt_config_slope(config));
+        case BELT_PERIOD_PER_SLOPE:
+            return at_most(config->connectivity * belt_config_slope(config) * config->period,
+                           BELT_SLOPE_PERIODS_MAX);
+        case BELT_INLET_FLUX_MAX: return above(BELT_REAL(0), config->inlet_flux_max);
+        default:
+            return closed(BELT_REAL(BELT_PREDICT_CONGESTION), BELT_REAL(config->prediction),
+                          BELT_REAL(BELT_HOLD_CONGESTION));
+    }
+}
+
+belt_rule_t belt_config_rule(const belt_config_t *config, belt_status_t code) {
+    BELT_ASSERT(config != NULL);
+    BELT_ASSERT((code >= BELT_RULE_FIRST) && (code <= BELT_RULE_LAST));
+    if (code <= BELT_LOSS_RATE) {
+        return line_rule(config, code);
+    }
+    if (code <= BELT_REWORK_PER_NODE) {
+        return discretisation_rule(config, code);
+    }
+    return law_rule(config, code);
+}
+
+bool belt_rule_holds(const belt_rule_t *rule) {
+    const bool high_enough =
+        rule->lower_open ? (rule->value > rule->lower) : (rule->value >= rule->lower);
+    const bool low_enough =
+        rule->upper_open ? (rule->value < rule->upper) : (rule->value <= rule->upper);
+    return high_enough && low_enough;
+}
+
+belt_status_t belt_config_check(const belt_config_t *config, uint64_t *broken) {
+    BELT_ASSERT(config != NULL);
+    belt_status_t first = BELT_OK;
+    uint64_t mask = 0;
+    for (int code = (int)BELT_RULE_FIRST; code <= (int)BELT_RULE_LAST; ++code) {
+        const belt_rule_t rule = belt_config_rule(config, (belt_status_t)code);
+        if (!belt_rule_holds(&rule)) {
+            mask |= BELT_RULE_BIT(code);
+            first = (first == BELT_OK) ? (belt_status_t)code : first;
+        }
+    }
+    if (broken != NULL) {
+        *broken = mask;
+    }
+    return first;
+}

@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * config.h - what the user states about the line and the law, and the rules it must keep.
+ *
+ * Units: length in m, time in s, amounts in parts. Any other consistent set does as well; then
+ * every field is stated in it, congestion_scale and service_time too.
+ *
+ * Cost: a check reads the whole configuration a few times; about 60 bytes of stack. It belongs to
+ * start-up, not to the control task.
+ */
+#ifndef BELT_CONFIG_H
+#define BELT_CONFIG_H
+
+#include "types.h"
+
+/** Every positive dimension lies between these, so that no product of them overflows. */
+#define BELT_DIMENSION_MIN BELT_REAL(1e-6)
+#define BELT_DIMENSION_MAX BELT_REAL(1e6)
+/** Longest dead time in periods: arrival times keep a thousandth of a period in float32. */
+#define BELT_DEAD_TIME_PERIODS 8192
+/** Greatest loss exponent: 1/survival <= exp(10) = 22026, where feeding more is no remedy. */
+#define BELT_LOSS_EXPONENT_MAX BELT_REAL(10)
+/** Greatest loss and rework while passing one node spacing: the march is of second order in them. */
+#define BELT_CHANGE_PER_NODE_MAX BELT_REAL(0.5)
+/** Greatest alpha S period: from 1 on the held command overshoots the law it samples. */
+#define BELT_SLOPE_PERIODS_MAX BELT_REAL(0.5)
+/** inlet_flux_max of an actuator without a limit. */
+#define BELT_NO_FLUX_LIMIT BELT_REAL_MAX
+
+typedef enum {
+    BELT_SLOPE_MARGIN,  /**< slope is what S exceeds Smin by, anew at each set-point. */
+    BELT_SLOPE_ABSOLUTE /**< slope is S itself. */
+} belt_slope_kind_t;
+
+typedef enum {
+    BELT_PREDICT_CONGESTION, /**< the paper's predictor: the speed of the march follows the level. */
+    BELT_HOLD_CONGESTION     /**< a march at the present speed, for comparison: misses the changing
+                                  dead time. */
+} belt_prediction_kind_t;
+
+typedef struct {
+    /* The line. Ranges: BELT_DIMENSION_MIN ... BELT_DIMENSION_MAX unless said otherwise. */
+    belt_real_t belt_length;      /**< D: from outlet to inlet [m]. */
+    belt_real_t processing_time;  /**< P: time a metre takes on an uncongested line [s/m]. */
+    belt_real_t speed_window;     /**< tau: how far back the level counts for the speed [s]. */
+    belt_real_t congestion_scale; /**< congestion at which the speed is halved [parts s]; 1 in the
+                                       paper. */
+    belt_real_t connectivity;     /**< alpha: share of the outlet flux that reaches the buffer,
+                                       0 < alpha <= 1. */
+    belt_real_t service_rate_max; /**< mu: greatest rate of service [parts/s]. */
+    belt_real_t service_time;     /**< service is level/service_time up to mu [s]; 1 in the paper. */
+    belt_real_t level_capacity;   /**< Qmax: parts that the buffer holds. */
+    belt_real_t rework_rate;      /**< A: of the density v leaving, A (D - x) v comes back at x each
+                                       second [1/(m s)], 0 ... BELT_DIMENSION_MAX. */
+    belt_real_t loss_rate[BELT_LOSS_CAPACITY]; /**< C(x): share lost in a second [1/s], 0 ...
+                                       BELT_DIMENSION_MAX; equally spaced from outlet (first) to
+                                       inlet (last), linear between. */
+    uint16_t loss_count; /**< values in loss_rate; 1: the loss is uniform. */
+
+    /* The law. */
+    belt_real_t level_setpoint;   /**< Q*: 0 < Q* < alpha Bmax service_time [parts]. */
+    belt_real_t nominal_flux_max; /**< Bmax: greatest nominal flux, <= min(Qmax/service_time,
+                                       mu)/alpha [parts/s]. Bounds the law, not the command. */
+    belt_slope_kind_t slope_kind; /**< what `slope` is. */
+    belt_real_t slope;            /**< S, or S - Smin [1/s]; S > Smin and alpha S period <= 1/2. */
+
+    /* The controller. */
+    uint16_t node_count;        /**< cells along the belt, 4 ... BELT_NODE_CAPACITY; 20 is plenty. */
+    belt_real_t period;         /**< time between steps [s]; <= P D/node_count. */
+    belt_real_t inlet_flux_max; /**< greatest command [parts/s], > 0; BELT_NO_FLUX_LIMIT if none. */
+    belt_prediction_kind_t prediction; /**< BELT_PREDICT_CONGESTION, but for comparisons. */
+} belt_config_t;
+
+/** One rule: `value` must lie between the limits; an open limit may not be touched. A side without
+ * limit has -BELT_REAL_MAX or BELT_REAL_MAX there. Limits can themselves be NaN or senseless when an
+ * earlier rule is broken. */
+typedef struct {
+    belt_real_t value;
+    belt_real_t lower;
+    belt_real_t upper;
+    bool lower_open;
+    bool upper_open;
+} belt_rule_t;
+
+/** Value and limits of one rule, BELT_RULE_FIRST <= code <= BELT_RULE_LAST, in the units of the
+ * configuration. */
+belt_rule_t belt_config_rule(const belt_config_t *config, belt_status_t code);
+
+/** True when the value is a number within the limits. False for every NaN. */
+bool belt_rule_holds(const belt_rule_t *rule);
+
+/** BELT_OK, or the first broken rule. *broken (may be null) gets a bit for every broken one. */
+belt_status_t belt_config_check(const belt_config_t *config, uint64_t *broken);
+
+/** Smin(Q*), eq:smin: below it a gain has no positive root [1/s]. */
+belt_real_t belt_config_slope_min(const belt_config_t *config);
+
+/** S at the configuration's set-point [1/s]. */
+belt_real_t belt_config_slope(const belt_config_t *config);
+
+/** Q* / (alpha service_time): the flux that holds the set-point once it arrives [parts/s]. */
+belt_real_t belt_config_setpoint_flux(const belt_config_t *config);
+
+/** P D (1 + tau Qmax/congestion_scale): dead time of the fullest line [s]. */
+belt_real_t belt_config_dead_time_max(const belt_config_t *config);
+
+#endif

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * level_history.h - the levels of the last speed_window, one a period: the state's own past, which
+ * sets the speed now and, while the march goes on, the speed to come.
+ *
+ * Levels are kept as whole quanta of level_capacity/2^BELT_QUANTA_BITS*(window length), so that the
+ * sum of a window fits an integer and is exact: it is moved on by one addition and one subtraction
+ * for ever and never drifts. A quantum is 7.6e-8 of the capacity for 82 levels in float32.
+ *
+ * Cost: push and congestion about 15 instructions each, a look-back 15, whatever the window's
+ * length. Memory: one word a period of the window.
+ */
+#ifndef BELT_LEVEL_HISTORY_H
+#define BELT_LEVEL_HISTORY_H
+
+#include "config.h"
+
+typedef struct {
+    belt_quanta_t level[BELT_WINDOW_CAPACITY]; /**< ring of levels [quanta]. */
+    belt_quanta_t window_sum; /**< sum of the whole intervals' levels, newest included [quanta]. */
+    uint16_t newest;          /**< index of the latest level. */
+    uint16_t length;          /**< levels in use: whole + 2. */
+    uint16_t whole;           /**< whole periods in the window. */
+    belt_real_t part;         /**< rest of the window beyond them [periods], [0, 1). */
+    belt_real_t window;       /**< the window [periods]. */
+    belt_real_t period;       /**< [s]. */
+    belt_real_t rate;         /**< 1/period [1/s]. */
+    belt_real_t quantum;      /**< level of one quantum [parts]. */
+    belt_real_t per_part;     /**< quanta in one part [1/parts]. */
+} belt_level_history_t;
+
+/** Prepares an empty history for a checked configuration; fill it before use. */
+void belt_level_history_init(belt_level_history_t *history, const belt_config_t *config);
+
+/** Makes the whole past equal to one level, 0 <= level <= level_capacity [parts]. O(window): for
+ * the first measurement, not for the running task. */
+void belt_level_history_fill(belt_level_history_t *history, belt_real_t level);
+
+/** Adds the level of this period, 0 <= level <= level_capacity [parts]. */
+void belt_level_history_push(belt_level_history_t *history, belt_real_t level);
+
+/** R: integral of the level over the window that ends now, trapezoids [parts s]. */
+belt_real_t belt_level_history_congestion(const belt_level_history_t *history);
+
+/** Level `age` periods ago, linear between periods; ages are clamped to what is kept [parts]. */
+belt_real_t belt_level_history_at(const belt_level_history_t *history, belt_real_t age);
+
+#endif

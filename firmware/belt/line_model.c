@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: MIT */
+#include "line_model.h"
+
+/** Integral of C from the outlet to x [m/s], exact for the linear pieces of the table. */
+static belt_real_t loss_up_to(const belt_config_t *config, belt_real_t x) {
+    if (config->loss_count <= 1) {
+        return config->loss_rate[0] * x;
+    }
+    const belt_real_t width = config->belt_length / BELT_REAL(config->loss_count - 1);
+    belt_real_t integral = BELT_REAL(0);
+    belt_real_t rest = x;
+    for (uint16_t i = 0; (i + 1 < config->loss_count) && (rest > BELT_REAL(0)); ++i) {
+        const belt_real_t reach = (rest < width) ? rest : width;
+        const belt_real_t left = config->loss_rate[i];
+        const belt_real_t rise = (config->loss_rate[i + 1] - left) / width;
+        integral += reach * (left + BELT_REAL(0.5) * rise * reach);
+        rest -= width;
+    }
+    return integral;
+}
+
+static bool is_uniform(const belt_config_t *config) {
+    for (uint16_t i = 1; i < config->loss_count; ++i) {
+        if ((config->loss_rate[i] > config->loss_rate[0]) ||
+            (config->loss_rate[i] < config->loss_rate[0])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void belt_line_init(belt_line_t *line, const belt_config_t *config) {
+    const belt_real_t nodes = BELT_REAL(config->node_count);
+    line->spacing = config->belt_length / nodes;
+    line->slowness_empty = config->processing_time;
+    line->slowness_slope = config->processing_time / config->congestion_scale;
+    line->service_rate = BELT_REAL(1) / config->service_time;
+    line->service_rate_max = config->service_rate_max;
+    line->connectivity = config->connectivity;
+    line->level_capacity = config->level_capacity;
+    line->rework_at_outlet = config->rework_rate * config->belt_length;
+    line->rework_per_spacing = line->rework_at_outlet / nodes;
+    line->node_count = config->node_count;
+    line->loss_is_uniform = is_uniform(config);
+    line->loss_mean = loss_up_to(config, config->belt_length) / config->belt_length;
+    belt_real_t before = BELT_REAL(0);
+    for (uint16_t i = 0; i < config->node_count; ++i) {
+        const belt_real_t after = loss_up_to(config, line->spacing * BELT_REAL(i + 1));
+        line->loss[i] = line->loss_is_uniform ? config->loss_rate[0]
+                                              : (after - before) / line->spacing;
+        before = after;
+    }
+}

@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * line_model.h - the physics that the stages share: speed, service, rework, loss.
+ *
+ * Material enters the belt at x = D, moves to x = 0 and leaves into a buffer (eq:buffer1, Mp):
+ *
+ *     Q'    = alpha*phi - service(Q),        phi = speed(R)*density(0)
+ *     rho_t = speed(R)*rho_x + rework(x, density(0)) - C(x)*rho
+ *     speed = 1/(P*(1 + R/congestion_scale)),  R = integral of Q over the last speed_window
+ *
+ * The stages ask for the slowness 1/speed: it is linear in R, so that nothing need be divided.
+ */
+#ifndef BELT_LINE_MODEL_H
+#define BELT_LINE_MODEL_H
+
+#include "config.h"
+
+/** Numbers derived from the configuration, once. Lengths are counted in node spacings where the name
+ * says `spacing`: material coordinates then are cell numbers. */
+typedef struct {
+    belt_real_t spacing;             /**< D/node_count [m]. */
+    belt_real_t slowness_empty;      /**< P: slowness of the empty line [s/m]. */
+    belt_real_t slowness_slope;      /**< P/congestion_scale: slowness per congestion [1/(m parts)]. */
+    belt_real_t service_rate;        /**< 1/service_time [1/s]. */
+    belt_real_t service_rate_max;    /**< mu [parts/s]. */
+    belt_real_t connectivity;        /**< alpha [-]. */
+    belt_real_t level_capacity;      /**< Qmax [parts]. */
+    belt_real_t rework_at_outlet;    /**< A*D: rework per density leaving, at the outlet [1/s]. */
+    belt_real_t rework_per_spacing;  /**< A*D/node_count: how much less of it each spacing on. */
+    belt_real_t loss_mean;           /**< mean of C(x) along the belt [1/s]. */
+    belt_real_t loss[BELT_NODE_CAPACITY]; /**< mean of C(x) over each spacing, outlet first [1/s]. */
+    uint16_t node_count;
+    bool loss_is_uniform;            /**< one C for the whole belt. */
+} belt_line_t;
+
+/** Derives the line from a configuration that belt_config_check() has passed. */
+void belt_line_init(belt_line_t *line, const belt_config_t *config);
+
+/** 1/omega(R) = P*(1 + R/congestion_scale) [s/m]. */
+static inline belt_real_t belt_line_slowness(const belt_line_t *line, belt_real_t congestion) {
+    return line->slowness_empty + line->slowness_slope * congestion;
+}
+
+/** min(Q/service_time, mu): what the buffer gives away (eq:buffer3) [parts/s]. */
+static inline belt_real_t belt_line_service(const belt_line_t *line, belt_real_t level) {
+    const belt_real_t rate = level * line->service_rate;
+    return (rate < line->service_rate_max) ? rate : line->service_rate_max;
+}
+
+/** A*(D - x): density that rework puts back at x in a second, per density leaving (Mp3) [1/s].
+ * `place` is x in spacings. */
+static inline belt_real_t belt_line_rework(const belt_line_t *line, belt_real_t place) {
+    return line->rework_at_outlet - line->rework_per_spacing * place;
+}
+
+/** exp(-loss), what survives: the series up to the third power, for a loss that
+ * BELT_CHANGE_PER_NODE_MAX bounds. Error below loss^4/24. */
+static inline belt_real_t belt_line_survival(belt_real_t loss) {
+    const belt_real_t third = BELT_REAL(1) / BELT_REAL(3);
+    return BELT_REAL(1) -
+           loss * (BELT_REAL(1) - BELT_REAL(0.5) * loss * (BELT_REAL(1) - third * loss));
+}
+
+#endif

@@ -1,0 +1,195 @@
+/* SPDX-License-Identifier: MIT */
+#include "observer.h"
+
+#define HALF BELT_REAL(0.5)
+/** A cut closer to the inlet end than this is not worth telling the sides apart. */
+#define LATEST_CUT BELT_REAL(0.99)
+
+void belt_observer_init(belt_observer_t *observer) {
+    for (uint16_t i = 0; i < BELT_CELL_CAPACITY; ++i) {
+        observer->density[i] = BELT_REAL(0);
+        observer->step[i] = BELT_REAL(0);
+        observer->cut[i] = BELT_REAL(0);
+    }
+    observer->outlet = 0;
+    observer->gone = BELT_REAL(0);
+    observer->outlet_density = BELT_REAL(0);
+    observer->fed_density = BELT_REAL(0);
+    observer->early = BELT_REAL(0);
+    observer->cut_weight = BELT_REAL(0);
+}
+
+void belt_observer_assume(belt_observer_t *observer, const belt_line_t *line,
+                          const belt_real_t *density) {
+    belt_observer_init(observer);
+    for (uint16_t i = 0; i < line->node_count; ++i) {
+        observer->density[i] = HALF * (density[i] + density[i + 1]);
+        observer->cut[i] = HALF;
+        observer->step[i] = HALF * (density[i + 1] - density[i]);
+    }
+    observer->outlet_density = density[0];
+    observer->fed_density = density[line->node_count];
+}
+
+/** Density on the outlet side of a cell's cut. */
+static belt_real_t outlet_side(const belt_observer_t *observer, uint16_t cell) {
+    return observer->density[cell] -
+           observer->step[cell] * (BELT_REAL(1) - observer->cut[cell]);
+}
+
+/** Integral of a cell's density over its first `share`, in units of a cell. */
+static belt_real_t first_part(const belt_observer_t *observer, uint16_t cell, belt_real_t share) {
+    const belt_real_t beyond = share - observer->cut[cell];
+    return outlet_side(observer, cell) * share +
+           ((beyond > BELT_REAL(0)) ? observer->step[cell] * beyond : BELT_REAL(0));
+}
+
+belt_real_t belt_observer_rest_of_outlet(const belt_observer_t *observer) {
+    const uint16_t cell = observer->outlet;
+    const belt_real_t gone = observer->gone;
+    const belt_real_t cut = observer->cut[cell];
+    if (gone >= cut) {
+        return observer->density[cell] + observer->step[cell] * cut;
+    }
+    return observer->density[cell] +
+           observer->step[cell] * gone * (BELT_REAL(1) - cut) / (BELT_REAL(1) - gone);
+}
+
+/** A density as it leaves, when its cell's centre still has `place` spacings to go at `pace`. */
+static belt_real_t on_leaving(const belt_observer_t *observer, const belt_line_t *line,
+                              belt_real_t density, belt_real_t place, belt_real_t pace) {
+    if (place <= BELT_REAL(0)) {
+        return density;
+    }
+    const belt_real_t time = place * pace;
+    return density * belt_line_survival(line->loss[0] * time) +
+           line->rework_at_outlet * observer->outlet_density * time;
+}
+
+/** Mean density that leaves while the belt travels (Mp1), `pace` seconds a spacing. */
+static belt_real_t leaving_density(const belt_observer_t *observer, const belt_line_t *line,
+                                   belt_real_t travel, belt_real_t pace) {
+    const uint16_t cell = observer->outlet;
+    const belt_real_t reach = observer->gone + travel;
+    const belt_real_t last = (reach < BELT_REAL(1)) ? reach : BELT_REAL(1);
+    const belt_real_t mean =
+        (first_part(observer, cell, last) - first_part(observer, cell, observer->gone));
+    const belt_real_t own = on_leaving(observer, line, mean / travel, HALF - observer->gone, pace);
+    if (reach <= BELT_REAL(1)) {
+        return own;
+    }
+    const belt_real_t next = first_part(observer, belt_observer_next(line, cell), reach - last);
+    return own + on_leaving(observer, line, next / travel, HALF, pace);
+}
+
+/** Loss and rework of the whole cells and the outlet cell over one period. */
+static void age_cells(belt_observer_t *observer, const belt_line_t *line,
+                      const belt_passage_t *passage, belt_real_t pace) {
+    const belt_real_t travel = passage->travel;
+    const belt_real_t offset = HALF - observer->gone;
+    /* Cells are `offset` beyond a node and move on together: one part of the period in one node
+     * spacing, the other in the next, the same for all of them. */
+    const belt_real_t ahead = (offset > BELT_REAL(0)) ? offset : BELT_REAL(0);
+    const belt_real_t here = (travel < ahead) ? travel : ahead;
+    const belt_real_t time_here = here * pace;
+    const belt_real_t time_next = (travel - here) * pace;
+    const belt_real_t source = observer->outlet_density * passage->duration;
+
+    uint16_t cell = observer->outlet;
+    if (here > BELT_REAL(0)) {
+        observer->density[cell] =
+            observer->density[cell] * belt_line_survival(line->loss[0] * time_here) +
+            line->rework_at_outlet * observer->outlet_density * time_here;
+    }
+    belt_real_t rework =
+        source * belt_line_rework(line, BELT_REAL(1) + offset - HALF * travel);
+    const belt_real_t rework_less = source * line->rework_per_spacing;
+    for (uint16_t i = 1; i < line->node_count; ++i) {
+        cell = belt_observer_next(line, cell);
+        const belt_real_t loss = time_here * line->loss[i] + time_next * line->loss[i - 1];
+        const belt_real_t survival = belt_line_survival(loss);
+        observer->density[cell] =
+            observer->density[cell] * survival + rework * (BELT_REAL(1) - HALF * loss);
+        observer->step[cell] *= survival;
+        rework -= rework_less;
+    }
+}
+
+/** Takes the start of this period as the open cell's cut, if it tells more apart than the last. */
+static void consider_cut(belt_observer_t *observer, uint16_t open, belt_real_t from,
+                         belt_real_t density) {
+    const belt_real_t jump = density - observer->fed_density;
+    const belt_real_t weight = jump * jump * from * (BELT_REAL(1) - from);
+    if ((weight > observer->cut_weight) && (from < LATEST_CUT)) {
+        observer->cut_weight = weight;
+        observer->cut[open] = from;
+        observer->early = observer->density[open];
+    }
+}
+
+/** Fills the open cell from one share to another with material of one density. */
+static void feed(belt_observer_t *observer, const belt_line_t *line, uint16_t open,
+                 belt_real_t from, belt_real_t to, belt_real_t density, belt_real_t pace) {
+    consider_cut(observer, open, from, density);
+    /* While the cell fills, its centre moves at half the speed of the belt; what is fed now is
+     * taken at the age at which it will pass the place where the centre is at the end. */
+    const belt_real_t loss = line->loss[line->node_count - 1] * pace;
+    const belt_real_t rework = line->rework_per_spacing * observer->outlet_density * pace;
+    const belt_real_t drift = HALF * (to - from);
+    const belt_real_t centre = HALF * to;
+    const belt_real_t kept = belt_line_survival(loss * drift);
+    const belt_real_t gained = rework * drift * (centre - HALF * drift);
+    const belt_real_t fresh =
+        density * belt_line_survival(loss * centre) + HALF * rework * centre * centre;
+    const belt_real_t present = observer->density[open] * kept + gained;
+    observer->early = observer->early * kept + gained;
+    observer->density[open] = (present * from + fresh * (to - from)) / to;
+}
+
+/** Ends the open cell at its full width; the cell that has left becomes the new open one. */
+static void close_cell(belt_observer_t *observer, const belt_line_t *line, uint16_t open,
+                       belt_real_t time_since) {
+    const belt_real_t cut = observer->cut[open];
+    observer->step[open] = (cut > BELT_REAL(0)) ? (observer->density[open] - observer->early) /
+                                                      (BELT_REAL(1) - cut)
+                                                : BELT_REAL(0);
+    const belt_real_t loss = line->loss[line->node_count - 1] * time_since;
+    observer->density[open] *= belt_line_survival(loss);
+
+    const uint16_t emptied = observer->outlet;
+    observer->outlet = belt_observer_next(line, emptied);
+    observer->density[emptied] = BELT_REAL(0);
+    observer->step[emptied] = BELT_REAL(0);
+    observer->cut[emptied] = BELT_REAL(0);
+    observer->early = BELT_REAL(0);
+    observer->cut_weight = BELT_REAL(0);
+}
+
+void belt_observer_advance(belt_observer_t *observer, const belt_line_t *line,
+                           const belt_passage_t *passage) {
+    const belt_real_t pace = passage->duration / passage->travel;
+    observer->outlet_density =
+        passage->left_is_measured
+            ? passage->left_density
+            : leaving_density(observer, line, passage->travel, pace);
+    age_cells(observer, line, passage, pace);
+
+    const uint16_t open =
+        (observer->outlet == 0) ? line->node_count : (uint16_t)(observer->outlet - 1);
+    const belt_real_t reach = observer->gone + passage->travel;
+    if (reach < BELT_REAL(1)) {
+        feed(observer, line, open, observer->gone, reach, passage->fed_density, pace);
+        observer->gone = reach;
+    } else {
+        const belt_real_t rest = reach - BELT_REAL(1);
+        const uint16_t fresh = observer->outlet;
+        feed(observer, line, open, observer->gone, BELT_REAL(1), passage->fed_density, pace);
+        close_cell(observer, line, open, rest * pace);
+        observer->fed_density = passage->fed_density;
+        if (rest > BELT_REAL(0)) {
+            feed(observer, line, fresh, BELT_REAL(0), rest, passage->fed_density, pace);
+        }
+        observer->gone = rest;
+    }
+    observer->fed_density = passage->fed_density;
+}

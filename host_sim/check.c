@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: MIT */
+#include "check.h"
+
+#include "equilibrium.h"
+#include "model.h"
+
+bool check_report(const scenario_t *scenario, FILE *out) {
+    belt_config_t config;
+    model_config(scenario, &config);
+    fprintf(out, "rules of the configuration:\n");
+    const int broken = model_print_rules(&config, false, out);
+    if (broken > 0) {
+        fprintf(out, "%d broken: the controller would refuse this scenario\n", broken);
+        return false;
+    }
+    const line_t *line = &scenario->line;
+    const equilibrium_t rest = equilibrium_of(line, scenario->law.level_setpoint);
+    const double empty = line->processing_time * line->belt_length;
+    fprintf(out, "dead time: %.6g s empty, %.6g s at the set-point, %.6g s full (%.1f, %.1f, %.1f "
+                 "periods)\n",
+            empty, rest.dead_time, (double)belt_config_dead_time_max(&config),
+            empty / scenario->controller.period, rest.dead_time / scenario->controller.period,
+            (double)belt_config_dead_time_max(&config) / scenario->controller.period);
+    belt_nominal_law_t law;
+    belt_nominal_law_init(&law, &config);
+    fprintf(out, "law: slope %.6g 1/s, gains %.6g below and %.6g above 1/parts\n",
+            (double)belt_config_slope(&config), (double)law.gains.below, (double)law.gains.above);
+    fprintf(out,
+            "equilibrium: level %.6g parts, outlet flux %.6g parts/s, inlet flux %.6g parts/s, "
+            "density %.6g (outlet) to %.6g (inlet) parts/m\n",
+            scenario->law.level_setpoint, rest.outlet_flux, rest.inlet_flux, rest.outlet_density,
+            rest.inlet_density);
+    if (scenario->controller.inlet_flux_max < rest.inlet_flux) {
+        fprintf(out, "note: controller.inlet_flux_max %.6g is below that inlet flux: the set-point "
+                     "cannot be held\n",
+                scenario->controller.inlet_flux_max);
+    }
+    return true;
+}

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * loop.h - the controller and the plant in one closed loop.
+ *
+ * loop.c is the only file that sees both sides. It hands every period's row to a sink, and knows
+ * nothing of files.
+ */
+#ifndef HOST_SIM_LOOP_H
+#define HOST_SIM_LOOP_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include "scenario.h"
+
+/** One row of the trace: the plant at the start of a period, before the step, and the step's answer. */
+typedef struct {
+    double time;             /**< [s]. */
+    double buffer_level;     /**< plant's Q [parts]. */
+    double level_setpoint;   /**< Q* in force in this period [parts]. */
+    double inlet_flux;       /**< the command, held from this instant on [parts/s]. */
+    double outlet_flux;      /**< plant's phi [parts/s]. */
+    double congestion;       /**< plant's R [parts s]. */
+    double transport_speed;  /**< plant's omega(R) [m/s]. */
+    double predicted_level;  /**< p1(D): controller's, for material fed at `time` [parts]. */
+    double arrival_time;     /**< sigma(D): when that material leaves the belt, absolute [s]. */
+    double survival;         /**< K(D, D): its share that is not lost on the way, (0, 1]. */
+} loop_row_t;
+
+/** Receives rows in order of time; `density` holds `density_count` plant densities equally spaced
+ * from outlet to inlet [parts/m]. Returning false ends the run (a full disk, an interrupt). */
+typedef struct {
+    void *context;
+    bool (*take)(void *context, const loop_row_t *row, const double *density, size_t density_count);
+} loop_sink_t;
+
+typedef struct {
+    double spilled;       /**< parts lost because the buffer was full. */
+    double balance_error; /**< parts in minus all that became of them [parts]. */
+    size_t steps;         /**< control steps made. */
+} loop_totals_t;
+
+typedef enum {
+    LOOP_DONE,
+    LOOP_CONFIG_REFUSED, /**< a rule of the controller or plant is broken: one line per rule on `messages`. */
+    LOOP_STOPPED,        /**< the sink returned false. */
+    LOOP_SELF_CHECK,     /**< the plant or the controller left its own limits: said on `messages`. */
+    LOOP_NO_MEMORY
+} loop_status_t;
+
+/** Runs the scenario: round(duration/period) + 1 rows. Messages are whole lines. */
+loop_status_t loop_run(const scenario_t *scenario, const loop_sink_t *sink, FILE *messages,
+                       loop_totals_t *totals);
+
+#endif

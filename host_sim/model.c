@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: MIT */
+#include "model.h"
+
+/** What a rule speaks of, as the scenario's reader knows it, and why there is such a rule. */
+typedef struct {
+    belt_status_t code;
+    const char *value;
+    const char *reason;
+} rule_text_t;
+
+static const rule_text_t rule_texts[] = {
+    {BELT_BELT_LENGTH, "line.belt_length", "a dimension"},
+    {BELT_PROCESSING_TIME, "line.processing_time", "a dimension"},
+    {BELT_SPEED_WINDOW, "line.speed_window", "a dimension"},
+    {BELT_CONGESTION_SCALE, "line.congestion_scale", "a dimension"},
+    {BELT_CONNECTIVITY, "line.connectivity", "a share of what leaves the belt"},
+    {BELT_SERVICE_RATE_MAX, "line.service_rate_max", "a dimension"},
+    {BELT_SERVICE_TIME, "line.service_time", "a dimension"},
+    {BELT_LEVEL_CAPACITY, "line.level_capacity", "a dimension"},
+    {BELT_REWORK_RATE, "line.rework_rate", "a rate"},
+    {BELT_LOSS_COUNT, "values in line.loss_rate", "BELT_LOSS_CAPACITY of this build"},
+    {BELT_LOSS_RATE, "greatest line.loss_rate", "a rate"},
+    {BELT_NODE_COUNT, "controller.node_count", "BELT_NODE_CAPACITY of this build"},
+    {BELT_PERIOD, "controller.period", "a dimension"},
+    {BELT_PERIOD_PER_NODE, "controller.period",
+     "an empty line moves at most one node spacing a period: processing_time*belt_length/node_count"},
+    {BELT_WINDOW_SHORT, "line.speed_window", "at least one period"},
+    {BELT_WINDOW_LONG, "speed_window/period + 2", "BELT_WINDOW_CAPACITY of this build"},
+    {BELT_DEAD_TIME, "longest dead time/period", "arrival times keep their resolution"},
+    {BELT_LOSS_EXPONENT, "mean loss_rate*longest dead time",
+     "exponent of 1/survival: beyond it feeding more is no remedy"},
+    {BELT_LOSS_PER_NODE, "greatest loss_rate*longest dead time/node_count",
+     "loss in one cell: raise node_count"},
+    {BELT_REWORK_PER_NODE, "rework_rate*belt_length*longest dead time/node_count",
+     "rework in one cell: raise node_count"},
+    {BELT_NOMINAL_FLUX_MAX, "law.nominal_flux_max",
+     "min(level_capacity/service_time, service_rate_max)/connectivity"},
+    {BELT_LEVEL_SETPOINT, "law.level_setpoint",
+     "below connectivity*nominal_flux_max*service_time, or the law cannot raise the level"},
+    {BELT_SLOPE_KIND, "kind of slope", "margin or absolute"},
+    {BELT_SETPOINT_SLOPE, "setpoint slope S", "above Smin, or a gain has no positive root"},
+    {BELT_PERIOD_PER_SLOPE, "connectivity*S*period",
+     "the period is short enough for the slope of the law"},
+    {BELT_INLET_FLUX_MAX, "controller.inlet_flux_max", "a limit above 0"},
+    {BELT_PREDICTION_KIND, "kind of prediction", "predictor or frozen"},
+};
+
+belt_real_t model_real(double value) {
+    if (value > (double)BELT_REAL_MAX) {
+        return BELT_REAL_MAX;
+    }
+    return (value < -(double)BELT_REAL_MAX) ? -BELT_REAL_MAX : (belt_real_t)value;
+}
+
+static uint16_t model_count(long count) {
+    return (uint16_t)((count < 0) ? 0 : (count > UINT16_MAX) ? UINT16_MAX : count);
+}
+
+void model_config(const scenario_t *scenario, belt_config_t *config) {
+    const belt_config_t empty = {0};
+    const line_t *line = &scenario->line;
+    *config = empty;
+    config->belt_length = model_real(line->belt_length);
+    config->processing_time = model_real(line->processing_time);
+    config->speed_window = model_real(line->speed_window);
+    config->congestion_scale = model_real(line->congestion_scale);
+    config->connectivity = model_real(line->connectivity);
+    config->service_rate_max = model_real(line->service_rate_max);
+    config->service_time = model_real(line->service_time);
+    config->level_capacity = model_real(line->level_capacity);
+    config->rework_rate = model_real(line->rework_rate);
+    config->loss_count = (uint16_t)line->loss_rate.count;
+    for (size_t i = 0; (i < line->loss_rate.count) && (i < BELT_LOSS_CAPACITY); ++i) {
+        config->loss_rate[i] = model_real(line->loss_rate.value[i]);
+    }
+    config->level_setpoint = model_real(scenario->law.level_setpoint);
+    config->nominal_flux_max = model_real(scenario->law.nominal_flux_max);
+    config->slope_kind =
+        scenario->law.slope_is_absolute ? BELT_SLOPE_ABSOLUTE : BELT_SLOPE_MARGIN;
+    config->slope = model_real(scenario->law.slope);
+    config->node_count = model_count(scenario->controller.node_count);
+    config->period = model_real(scenario->controller.period);
+    config->inlet_flux_max = model_real(scenario->controller.inlet_flux_max);
+    config->prediction = (scenario->controller.law == LAW_FROZEN) ? BELT_HOLD_CONGESTION
+                                                                  : BELT_PREDICT_CONGESTION;
+}
+
+static void print_rule(const rule_text_t *text, const belt_rule_t *rule, bool holds, FILE *out) {
+    const double value = (double)rule->value;
+    const double below = value - (double)rule->lower;
+    const double above = (double)rule->upper - value;
+    fprintf(out, "%s %s: %s = %.9g", holds ? "holds  " : "refused", belt_status_name(text->code),
+            text->value, value);
+    if (rule->lower > -BELT_REAL_MAX) {
+        fprintf(out, ", must be %s %.9g", rule->lower_open ? "above" : "at least",
+                (double)rule->lower);
+    }
+    if (rule->upper < BELT_REAL_MAX) {
+        fprintf(out, ", must be %s %.9g", rule->upper_open ? "below" : "at most",
+                (double)rule->upper);
+    }
+    if (holds) {
+        fprintf(out, ", margin %.3g", (above < below) ? above : below);
+    }
+    fprintf(out, " (%s)\n", text->reason);
+}
+
+int model_print_rules(const belt_config_t *config, bool broken_only, FILE *out) {
+    int broken = 0;
+    for (size_t i = 0; i < sizeof rule_texts / sizeof rule_texts[0]; ++i) {
+        const belt_rule_t rule = belt_config_rule(config, rule_texts[i].code);
+        const bool holds = belt_rule_holds(&rule);
+        broken += holds ? 0 : 1;
+        if (!holds || !broken_only) {
+            print_rule(&rule_texts[i], &rule, holds, out);
+        }
+    }
+    return broken;
+}

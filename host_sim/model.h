@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * model.h - what a scenario tells the controller: its configuration, and the rules it must keep.
+ */
+#ifndef HOST_SIM_MODEL_H
+#define HOST_SIM_MODEL_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "belt/belt.h"
+#include "scenario.h"
+
+/** The controller's configuration, in the controller's own numbers. */
+void model_config(const scenario_t *scenario, belt_config_t *config);
+
+/** A double in the controller's numbers; what is beyond them becomes their greatest. */
+belt_real_t model_real(double value);
+
+/** Prints the rules, one a line with value and limits: all of them, or the broken ones alone.
+ * Returns how many are broken. */
+int model_print_rules(const belt_config_t *config, bool broken_only, FILE *out);
+
+#endif

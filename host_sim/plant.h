@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * plant.h - the conveyor and the buffer that are simulated, in double.
+ *
+ *     Q'    = alpha*phi - min(Q/service_time, mu),     0 <= Q <= level_capacity, the rest is spilled
+ *     rho_t = omega(R)*rho_x + A*(D - x)*rho(0,t) - C(x)*rho,    omega(R)*rho(D,t) = flux fed
+ *     phi   = omega(R)*rho(0,t),     omega(R) = 1/(P*(1 + R/congestion_scale))
+ *
+ * Two schemes. `characteristics` follows the material exactly and is the truth that the controller
+ * is judged by; `upwind` is the paper's own first-order scheme. Neither shares a line or a
+ * discretisation with the firmware.
+ */
+#ifndef HOST_SIM_PLANT_H
+#define HOST_SIM_PLANT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "line.h"
+#include "speed_window.h"
+
+typedef struct {
+    const line_t *line;       /**< must outlive the plant. */
+    double period;            /**< control period: what is fed is constant in it [s]. */
+    size_t substeps;          /**< plant steps in a period, >= 1. */
+    size_t node_count;        /**< upwind: cells; characteristics: least number of parcels. */
+    double inlet_flux_max;    /**< what the valve lets through [parts/s], may be infinite. */
+    double buffer_level;      /**< Q at the start and in the window before it [parts]. */
+    const profile_t *density; /**< what lies on the belt at the start [parts/m]. */
+} plant_setup_t;
+
+/** Where the parts went, since the start [parts]. */
+typedef struct {
+    double fed;
+    double served;
+    double spilled;  /**< the buffer was full. */
+    double diverted; /**< left the belt but did not reach the buffer: the share 1 - alpha. */
+    double lost;     /**< scrapped on the belt. */
+    double reworked; /**< put back on the belt. */
+} plant_account_t;
+
+/** The buffer, and what sets the speed: the same for both schemes. */
+typedef struct {
+    plant_setup_t setup;
+    double step;           /**< plant step [s]. */
+    double level;          /**< Q [parts]. */
+    double congestion;     /**< R [parts s]. */
+    double applied_flux;   /**< what the valve let through in the last period [parts/s]. */
+    double parts_at_start; /**< on the belt and in the buffer [parts]. */
+    speed_window_t window;
+    plant_account_t account;
+} plant_t;
+
+/** What a scheme is. The belt behind the pointer is the scheme's own. */
+typedef struct {
+    bool (*create)(void **belt, const plant_t *plant);
+    void (*destroy)(void *belt);
+    /** One plant step at a constant flux; `fresh` on a period's first step. Moves level and belt. */
+    void (*advance)(void *belt, plant_t *plant, double flux, bool fresh);
+    /** Density about to leave, rho(0) [parts/m]. */
+    double (*outlet_density)(const void *belt, const plant_t *plant);
+    /** `count` >= 2 densities equally spaced from outlet to inlet [parts/m]. */
+    void (*profile)(const void *belt, const plant_t *plant, double *density, size_t count);
+    /** Parts on the belt. */
+    double (*content)(const void *belt, const plant_t *plant);
+} scheme_t;
+
+extern const scheme_t scheme_characteristics;
+extern const scheme_t scheme_upwind;
+
+/** False when memory lacks; then there is nothing to destroy. */
+bool plant_create(plant_t *plant, const plant_setup_t *setup);
+void plant_destroy(plant_t *plant);
+
+/** omega at a congestion [m/s]. */
+double line_speed(const line_t *line, double congestion);
+
+/** Runs one control period of a scheme with one command [parts/s]. */
+void plant_advance(plant_t *plant, const scheme_t *scheme, void *belt, double command);
+
+/** The buffer's share of one plant step: `left` parts left the belt. `middle` is the level at which
+ * the service is taken. */
+void plant_serve(plant_t *plant, double left, double middle);
+
+/** Parts in (fed, reworked, there at the start) minus all that became of them [parts]. */
+double plant_balance_error(const plant_t *plant, const scheme_t *scheme, const void *belt);
+
+/** min(Q/service_time, mu) [parts/s]. */
+double line_service(const line_t *line, double level);
+
+#endif

@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * scenario.h - one run of the simulator, read from an INI file.
+ *
+ * The format is the part of INI that inih and Python's configparser (interpolation=None) read
+ * alike. A line is one of: blank; a comment, `#` or `;` in its first column; `[section]`;
+ * `key = value`. Text is UTF-8 without byte order mark and without control characters but tab,
+ * with LF or CR LF line ends, at most 197 bytes a line and 65536 bytes in all. Refused besides:
+ * indented lines (configparser continues the value above), `:` for `=`, comments behind a value,
+ * a section or key stated twice, unknown names, [DEFAULT]. Numbers are decimal: 2, -0.5, 1e-3.
+ *
+ * A default yields to the file, the file to a setting, an earlier setting to a later one. A key
+ * of [line] that [plant] does not state is the same in both. The keys, their defaults and ranges
+ * stand in the table of scenario_keys.c.
+ */
+#ifndef HOST_SIM_SCENARIO_H
+#define HOST_SIM_SCENARIO_H
+
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include "line.h"
+
+/** Most bytes a scenario file holds. */
+#define SCENARIO_SIZE_MAX 65536u
+
+/** Most control periods in one run; keeps a slip of the pen from filling the disk. */
+#define SCENARIO_STEPS_MAX 100000000.0
+
+/** No limit: what an inlet_flux_max holds when the scenario leaves it out. */
+#define SCENARIO_NO_LIMIT ((double)INFINITY)
+
+typedef enum { LAW_PREDICTOR, LAW_FROZEN, LAW_UNCOMPENSATED, LAW_OPEN_LOOP } scenario_law_t;
+typedef enum { DENSITY_OBSERVED, DENSITY_MEASURED } scenario_density_t;
+typedef enum { OUTLET_MODELLED, OUTLET_MEASURED } scenario_outlet_t;
+typedef enum { SCHEME_CHARACTERISTICS, SCHEME_UPWIND } scenario_scheme_t;
+
+typedef struct {
+    line_t line; /**< [line]: the model the controller is told. */
+    struct {
+        double level_setpoint;   /**< Q* at the start [parts]. */
+        double nominal_flux_max; /**< Bmax [parts/s]. */
+        bool slope_is_absolute;  /**< true: `slope` is setpoint_slope; false: it is slope_margin. */
+        double slope;            /**< S or S - Smin [1/s]. */
+    } law;
+    struct {
+        scenario_law_t law;
+        scenario_density_t density;
+        scenario_outlet_t outlet_flux;
+        long node_count;
+        double period;         /**< control period [s]. */
+        double inlet_flux_max; /**< SCENARIO_NO_LIMIT when left out [parts/s]. */
+    } controller;
+    struct {
+        line_t line; /**< [line] with the keys of [plant] laid over it. */
+        scenario_scheme_t scheme;
+        long
+            node_count; /**< upwind: cells; characteristics: least number of parcels on the belt. */
+        long substeps;  /**< plant steps in one control period. */
+        double inlet_flux_max;
+    } plant;
+    struct {
+        double buffer_level;
+        profile_t density;          /**< what lies on the plant's belt at the start [parts/m]. */
+        profile_t observer_density; /**< what the controller believes lies there. */
+    } initial;
+    struct {
+        double duration; /**< [s]. */
+        double setpoint_times[LIST_CAPACITY];
+        double setpoint_levels[LIST_CAPACITY];
+        size_t setpoint_count;
+    } run;
+} scenario_t;
+
+/** Command-line settings, each `section.key=value`, in the order given. */
+typedef struct {
+    const char *const *text;
+    size_t count;
+} scenario_settings_t;
+
+/** The paper's case: what an empty file gives. */
+void scenario_defaults(scenario_t *scenario);
+
+/** Reads a scenario from `length` bytes of text and lays the settings over it; `name` stands for
+ * the text in messages. Opens nothing and keeps nothing between calls. Returns false after one line
+ * on `messages` that names the first mistake: file and line (or `--set`), key, value and limit;
+ * `scenario` is then untouched. */
+bool scenario_read_with(const char *text, size_t length, const char *name,
+                        const scenario_settings_t *settings, scenario_t *scenario, FILE *messages);
+
+/** scenario_read_with() without settings. */
+bool scenario_read(const char *text, size_t length, const char *name, scenario_t *scenario,
+                   FILE *messages);
+
+#endif
