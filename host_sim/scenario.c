@@ -164,6 +164,12 @@ static bool setpoints_are_consistent(const draft_t *draft, const scenario_place_
 
 static bool is_consistent(const draft_t *draft, const scenario_place_t *place) {
     const scenario_t *const scenario = &draft->scenario;
+    if (scenario->initial.buffer_level > scenario->plant.line.level_capacity) {
+        const scenario_entry_t entry = {"initial", "buffer_level", NULL};
+        scenario_complain(place, &entry, "%.17g must be at most the plant's level_capacity %.17g",
+                          scenario->initial.buffer_level, scenario->plant.line.level_capacity);
+        return false;
+    }
     if (scenario->run.duration / scenario->controller.period > SCENARIO_STEPS_MAX) {
         const scenario_entry_t entry = {"run", "duration", NULL};
         scenario_complain(place, &entry, "%.17g is more than %g periods of %.17g",

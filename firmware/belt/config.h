@@ -21,7 +21,7 @@
 /** Greatest loss exponent: 1/survival <= exp(10) = 22026, where feeding more is no remedy. */
 #define BELT_LOSS_EXPONENT_MAX BELT_REAL(10)
 /** Greatest loss and rework while passing one node spacing: the march is of second order in them. */
-#define BELT_CHANGE_PER_NODE_MAX BELT_REAL(0.5)
+#define BELT_CHANGE_PER_NODE_MAX BELT_REAL(0.25)
 /** Greatest alpha S period: from 1 on the held command overshoots the law it samples. */
 #define BELT_SLOPE_PERIODS_MAX BELT_REAL(0.5)
 /** inlet_flux_max of an actuator without a limit. */

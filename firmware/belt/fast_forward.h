@@ -4,8 +4,8 @@
  * whose loss differs from place to place (MF4, MF7).
  *
  * Where the loss is uniform all material ages alike, and the march carries survival and rework along
- * with a few operations a cell. Here each piece is moved past every cell that leaves before it: about
- * 16 instructions a pair, node_count^2/2 pairs a march.
+ * with a few operations a stretch. Here each piece is moved past every stretch that leaves before it:
+ * about 20 instructions a pair, node_count^2/8 pairs a march.
  */
 #ifndef BELT_FAST_FORWARD_H
 #define BELT_FAST_FORWARD_H
@@ -18,21 +18,20 @@ typedef struct {
     belt_real_t rework;   /**< I: density picked up on the way [parts/m]. */
 } belt_transfer_t;
 
-/** The cells that the march has passed already. */
+/** The stretches of belt that the march has passed already, from the outlet on. */
 typedef struct {
-    const belt_real_t *dwell;          /**< time each took to pass the outlet [s]. */
+    const belt_real_t *width;          /**< of each, at most 2 [spacings]. */
+    const belt_real_t *pace;           /**< time each takes for one spacing [s]. */
     const belt_real_t *outlet_density; /**< density each left with [parts/m]. */
-    uint16_t count;                    /**< how many, >= 1. */
-    belt_real_t first_width;           /**< width of the first one [spacings]; the others are 1. */
+    uint32_t count;                    /**< how many. */
 } belt_passed_t;
 
-/** Moves material from `place` [spacings from the outlet] on while all cells in `passed` leave. */
+/** Moves material from `place` [spacings from the outlet] on while all of `passed` leaves. */
 belt_transfer_t belt_fast_forward(const belt_line_t *line, const belt_passed_t *passed,
                                   belt_real_t place);
 
-/** Adds the last stretch, from `place` <= 1 spacing to the outlet in `dwell` seconds, while `left`
- * leaves. */
+/** Adds the last way, from `place` <= 2 spacings to the outlet at `pace`, while `left` leaves. */
 void belt_fast_forward_last(belt_transfer_t *transfer, const belt_line_t *line, belt_real_t place,
-                            belt_real_t dwell, belt_real_t left);
+                            belt_real_t pace, belt_real_t left);
 
 #endif

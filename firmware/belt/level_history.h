@@ -18,9 +18,9 @@
 typedef struct {
     belt_quanta_t level[BELT_WINDOW_CAPACITY]; /**< ring of levels [quanta]. */
     belt_quanta_t window_sum; /**< sum of the whole intervals' levels, newest included [quanta]. */
-    uint16_t newest;          /**< index of the latest level. */
-    uint16_t length;          /**< levels in use: whole + 2. */
-    uint16_t whole;           /**< whole periods in the window. */
+    uint32_t newest;          /**< index of the latest level. */
+    uint32_t length;          /**< levels in use: whole + 2. */
+    uint32_t whole;           /**< whole periods in the window. */
     belt_real_t part;         /**< rest of the window beyond them [periods], [0, 1). */
     belt_real_t window;       /**< the window [periods]. */
     belt_real_t period;       /**< [s]. */
@@ -42,7 +42,23 @@ void belt_level_history_push(belt_level_history_t *history, belt_real_t level);
 /** R: integral of the level over the window that ends now, trapezoids [parts s]. */
 belt_real_t belt_level_history_congestion(const belt_level_history_t *history);
 
-/** Level `age` periods ago, linear between periods; ages are clamped to what is kept [parts]. */
-belt_real_t belt_level_history_at(const belt_level_history_t *history, belt_real_t age);
+/** Index of the level `age` whole periods old, 0 <= age < length. */
+static inline uint32_t belt_level_history_index(const belt_level_history_t *history, uint32_t age) {
+    const uint32_t wrap = (history->newest < age) ? history->length : 0u;
+    return history->newest + wrap - age;
+}
+
+/** Level `age` periods ago, 0 <= age <= window, linear between periods [parts]. */
+static inline belt_real_t belt_level_history_at(const belt_level_history_t *history,
+                                                belt_real_t age) {
+    const uint32_t whole = (uint32_t)(int32_t)age;
+    const uint32_t periods = (whole < history->whole) ? whole : history->whole;
+    const uint32_t young = belt_level_history_index(history, periods);
+    const uint32_t old = (young == 0u) ? history->length - 1u : young - 1u;
+    const belt_quanta_t level = history->level[young];
+    const belt_real_t between = age - (belt_real_t)(int32_t)periods;
+    return ((belt_real_t)level + between * (belt_real_t)(history->level[old] - level)) *
+           history->quantum;
+}
 
 #endif

@@ -9,7 +9,7 @@ static belt_real_t loss_up_to(const belt_config_t *config, belt_real_t x) {
     const belt_real_t width = config->belt_length / BELT_REAL(config->loss_count - 1);
     belt_real_t integral = BELT_REAL(0);
     belt_real_t rest = x;
-    for (uint16_t i = 0; (i + 1 < config->loss_count) && (rest > BELT_REAL(0)); ++i) {
+    for (uint32_t i = 0; (i + 1 < config->loss_count) && (rest > BELT_REAL(0)); ++i) {
         const belt_real_t reach = (rest < width) ? rest : width;
         const belt_real_t left = config->loss_rate[i];
         const belt_real_t rise = (config->loss_rate[i + 1] - left) / width;
@@ -20,7 +20,7 @@ static belt_real_t loss_up_to(const belt_config_t *config, belt_real_t x) {
 }
 
 static bool is_uniform(const belt_config_t *config) {
-    for (uint16_t i = 1; i < config->loss_count; ++i) {
+    for (uint32_t i = 1; i < config->loss_count; ++i) {
         if ((config->loss_rate[i] > config->loss_rate[0]) ||
             (config->loss_rate[i] < config->loss_rate[0])) {
             return false;
@@ -43,11 +43,13 @@ void belt_line_init(belt_line_t *line, const belt_config_t *config) {
     line->node_count = config->node_count;
     line->loss_is_uniform = is_uniform(config);
     line->loss_mean = loss_up_to(config, config->belt_length) / config->belt_length;
-    belt_real_t before = BELT_REAL(0);
-    for (uint16_t i = 0; i < config->node_count; ++i) {
-        const belt_real_t after = loss_up_to(config, line->spacing * BELT_REAL(i + 1));
-        line->loss[i] = line->loss_is_uniform ? config->loss_rate[0]
-                                              : (after - before) / line->spacing;
-        before = after;
+    line->loss_sum[0] = BELT_REAL(0);
+    for (uint32_t i = 0; i < config->node_count; ++i) {
+        const belt_real_t inner = loss_up_to(config, line->spacing * (belt_real_t)i);
+        const belt_real_t outer = loss_up_to(config, line->spacing * (belt_real_t)(i + 1u));
+        line->loss[i] =
+            line->loss_is_uniform ? config->loss_rate[0] : (outer - inner) / line->spacing;
+        line->loss_sum[i + 1] = line->loss_sum[i] + line->loss[i];
     }
+    line->loss[config->node_count] = line->loss[config->node_count - 1];
 }

@@ -28,8 +28,10 @@ typedef struct {
     belt_real_t rework_at_outlet;    /**< A*D: rework per density leaving, at the outlet [1/s]. */
     belt_real_t rework_per_spacing;  /**< A*D/node_count: how much less of it each spacing on. */
     belt_real_t loss_mean;           /**< mean of C(x) along the belt [1/s]. */
-    belt_real_t loss[BELT_NODE_CAPACITY]; /**< mean of C(x) over each spacing, outlet first [1/s]. */
-    uint16_t node_count;
+    belt_real_t loss[BELT_NODE_CAPACITY + 1]; /**< mean of C(x) over each spacing, outlet first; the
+                                          last stands twice [1/s]. */
+    belt_real_t loss_sum[BELT_NODE_CAPACITY + 1]; /**< their sum up to each node [1/s]. */
+    uint32_t node_count;
     bool loss_is_uniform;            /**< one C for the whole belt. */
 } belt_line_t;
 
@@ -53,8 +55,15 @@ static inline belt_real_t belt_line_rework(const belt_line_t *line, belt_real_t 
     return line->rework_at_outlet - line->rework_per_spacing * place;
 }
 
-/** exp(-loss), what survives: the series up to the third power, for a loss that
- * BELT_CHANGE_PER_NODE_MAX bounds. Error below loss^4/24. */
+/** Sum of the loss rates from the outlet to a place, 0 <= place <= node_count [spacings]; linear
+ * between nodes, so that the losses of a way add up to its own whatever the steps [1/s]. */
+static inline belt_real_t belt_line_loss_sum(const belt_line_t *line, belt_real_t place) {
+    const int32_t node = (int32_t)place;
+    return line->loss_sum[node] + (place - (belt_real_t)node) * line->loss[node];
+}
+
+/** exp(-loss), what survives: the series up to the third power, for a loss over at most two spacings,
+ * which twice BELT_CHANGE_PER_NODE_MAX bounds. Error below loss^4/24. */
 static inline belt_real_t belt_line_survival(belt_real_t loss) {
     const belt_real_t third = BELT_REAL(1) / BELT_REAL(3);
     return BELT_REAL(1) -

@@ -37,7 +37,7 @@ static void gate_level(belt_trusted_t *trusted, const belt_measurement_t *measur
 }
 
 static void gate_density(belt_trusted_t *trusted, const belt_measurement_t *measurement,
-                         uint16_t node_count, belt_real_t bound) {
+                         uint32_t node_count, belt_real_t bound) {
     trusted->has_density = false;
     if ((measurement->present & BELT_HAS_DENSITY) == 0u) {
         return;
@@ -47,7 +47,7 @@ static void gate_density(belt_trusted_t *trusted, const belt_measurement_t *meas
         return;
     }
     uint32_t found = 0;
-    for (uint16_t i = 0; i <= node_count; ++i) {
+    for (uint32_t i = 0; i <= node_count; ++i) {
         const belt_real_t density = measurement->density[i];
         if (density < BELT_REAL(0)) {
             found |= BELT_ERROR_DENSITY_RANGE;

@@ -6,7 +6,7 @@
 #define LATEST_CUT BELT_REAL(0.99)
 
 void belt_observer_init(belt_observer_t *observer) {
-    for (uint16_t i = 0; i < BELT_CELL_CAPACITY; ++i) {
+    for (uint32_t i = 0; i < BELT_CELL_CAPACITY; ++i) {
         observer->density[i] = BELT_REAL(0);
         observer->step[i] = BELT_REAL(0);
         observer->cut[i] = BELT_REAL(0);
@@ -22,7 +22,7 @@ void belt_observer_init(belt_observer_t *observer) {
 void belt_observer_assume(belt_observer_t *observer, const belt_line_t *line,
                           const belt_real_t *density) {
     belt_observer_init(observer);
-    for (uint16_t i = 0; i < line->node_count; ++i) {
+    for (uint32_t i = 0; i < line->node_count; ++i) {
         observer->density[i] = HALF * (density[i] + density[i + 1]);
         observer->cut[i] = HALF;
         observer->step[i] = HALF * (density[i + 1] - density[i]);
@@ -32,20 +32,20 @@ void belt_observer_assume(belt_observer_t *observer, const belt_line_t *line,
 }
 
 /** Density on the outlet side of a cell's cut. */
-static belt_real_t outlet_side(const belt_observer_t *observer, uint16_t cell) {
+static belt_real_t outlet_side(const belt_observer_t *observer, uint32_t cell) {
     return observer->density[cell] -
            observer->step[cell] * (BELT_REAL(1) - observer->cut[cell]);
 }
 
 /** Integral of a cell's density over its first `share`, in units of a cell. */
-static belt_real_t first_part(const belt_observer_t *observer, uint16_t cell, belt_real_t share) {
+static belt_real_t first_part(const belt_observer_t *observer, uint32_t cell, belt_real_t share) {
     const belt_real_t beyond = share - observer->cut[cell];
     return outlet_side(observer, cell) * share +
            ((beyond > BELT_REAL(0)) ? observer->step[cell] * beyond : BELT_REAL(0));
 }
 
 belt_real_t belt_observer_rest_of_outlet(const belt_observer_t *observer) {
-    const uint16_t cell = observer->outlet;
+    const uint32_t cell = observer->outlet;
     const belt_real_t gone = observer->gone;
     const belt_real_t cut = observer->cut[cell];
     if (gone >= cut) {
@@ -69,7 +69,7 @@ static belt_real_t on_leaving(const belt_observer_t *observer, const belt_line_t
 /** Mean density that leaves while the belt travels (Mp1), `pace` seconds a spacing. */
 static belt_real_t leaving_density(const belt_observer_t *observer, const belt_line_t *line,
                                    belt_real_t travel, belt_real_t pace) {
-    const uint16_t cell = observer->outlet;
+    const uint32_t cell = observer->outlet;
     const belt_real_t reach = observer->gone + travel;
     const belt_real_t last = (reach < BELT_REAL(1)) ? reach : BELT_REAL(1);
     const belt_real_t mean =
@@ -95,7 +95,7 @@ static void age_cells(belt_observer_t *observer, const belt_line_t *line,
     const belt_real_t time_next = (travel - here) * pace;
     const belt_real_t source = observer->outlet_density * passage->duration;
 
-    uint16_t cell = observer->outlet;
+    uint32_t cell = observer->outlet;
     if (here > BELT_REAL(0)) {
         observer->density[cell] =
             observer->density[cell] * belt_line_survival(line->loss[0] * time_here) +
@@ -104,7 +104,7 @@ static void age_cells(belt_observer_t *observer, const belt_line_t *line,
     belt_real_t rework =
         source * belt_line_rework(line, BELT_REAL(1) + offset - HALF * travel);
     const belt_real_t rework_less = source * line->rework_per_spacing;
-    for (uint16_t i = 1; i < line->node_count; ++i) {
+    for (uint32_t i = 1; i < line->node_count; ++i) {
         cell = belt_observer_next(line, cell);
         const belt_real_t loss = time_here * line->loss[i] + time_next * line->loss[i - 1];
         const belt_real_t survival = belt_line_survival(loss);
@@ -116,7 +116,7 @@ static void age_cells(belt_observer_t *observer, const belt_line_t *line,
 }
 
 /** Takes the start of this period as the open cell's cut, if it tells more apart than the last. */
-static void consider_cut(belt_observer_t *observer, uint16_t open, belt_real_t from,
+static void consider_cut(belt_observer_t *observer, uint32_t open, belt_real_t from,
                          belt_real_t density) {
     const belt_real_t jump = density - observer->fed_density;
     const belt_real_t weight = jump * jump * from * (BELT_REAL(1) - from);
@@ -128,7 +128,7 @@ static void consider_cut(belt_observer_t *observer, uint16_t open, belt_real_t f
 }
 
 /** Fills the open cell from one share to another with material of one density. */
-static void feed(belt_observer_t *observer, const belt_line_t *line, uint16_t open,
+static void feed(belt_observer_t *observer, const belt_line_t *line, uint32_t open,
                  belt_real_t from, belt_real_t to, belt_real_t density, belt_real_t pace) {
     consider_cut(observer, open, from, density);
     /* While the cell fills, its centre moves at half the speed of the belt; what is fed now is
@@ -147,7 +147,7 @@ static void feed(belt_observer_t *observer, const belt_line_t *line, uint16_t op
 }
 
 /** Ends the open cell at its full width; the cell that has left becomes the new open one. */
-static void close_cell(belt_observer_t *observer, const belt_line_t *line, uint16_t open,
+static void close_cell(belt_observer_t *observer, const belt_line_t *line, uint32_t open,
                        belt_real_t time_since) {
     const belt_real_t cut = observer->cut[open];
     observer->step[open] = (cut > BELT_REAL(0)) ? (observer->density[open] - observer->early) /
@@ -156,7 +156,7 @@ static void close_cell(belt_observer_t *observer, const belt_line_t *line, uint1
     const belt_real_t loss = line->loss[line->node_count - 1] * time_since;
     observer->density[open] *= belt_line_survival(loss);
 
-    const uint16_t emptied = observer->outlet;
+    const uint32_t emptied = observer->outlet;
     observer->outlet = belt_observer_next(line, emptied);
     observer->density[emptied] = BELT_REAL(0);
     observer->step[emptied] = BELT_REAL(0);
@@ -174,15 +174,15 @@ void belt_observer_advance(belt_observer_t *observer, const belt_line_t *line,
             : leaving_density(observer, line, passage->travel, pace);
     age_cells(observer, line, passage, pace);
 
-    const uint16_t open =
-        (observer->outlet == 0) ? line->node_count : (uint16_t)(observer->outlet - 1);
+    const uint32_t open =
+        (observer->outlet == 0u) ? line->node_count : observer->outlet - 1u;
     const belt_real_t reach = observer->gone + passage->travel;
     if (reach < BELT_REAL(1)) {
         feed(observer, line, open, observer->gone, reach, passage->fed_density, pace);
         observer->gone = reach;
     } else {
         const belt_real_t rest = reach - BELT_REAL(1);
-        const uint16_t fresh = observer->outlet;
+        const uint32_t fresh = observer->outlet;
         feed(observer, line, open, observer->gone, BELT_REAL(1), passage->fed_density, pace);
         close_cell(observer, line, open, rest * pace);
         observer->fed_density = passage->fed_density;

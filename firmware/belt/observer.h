@@ -29,7 +29,7 @@ typedef struct {
     belt_real_t density[BELT_CELL_CAPACITY]; /**< ring: mean density of each cell [parts/m]. */
     belt_real_t step[BELT_CELL_CAPACITY];    /**< density inlet-side less outlet-side of the cut. */
     belt_real_t cut[BELT_CELL_CAPACITY];     /**< share of the cell on the outlet side, [0, 1). */
-    uint16_t outlet;             /**< ring index of the outlet cell; the open cell stands before it. */
+    uint32_t outlet;             /**< ring index of the outlet cell; the open cell stands before it. */
     belt_real_t gone;            /**< share of the outlet cell that has left, of the open cell that
                                       has been fed, [0, 1). */
     belt_real_t outlet_density;  /**< mean density that left in the last period [parts/m]. */
@@ -63,8 +63,8 @@ void belt_observer_advance(belt_observer_t *observer, const belt_line_t *line,
 belt_real_t belt_observer_rest_of_outlet(const belt_observer_t *observer);
 
 /** The ring's next cell towards the inlet. */
-static inline uint16_t belt_observer_next(const belt_line_t *line, uint16_t cell) {
-    return (cell >= line->node_count) ? 0 : (uint16_t)(cell + 1);
+static inline uint32_t belt_observer_next(const belt_line_t *line, uint32_t cell) {
+    return (cell >= line->node_count) ? 0u : cell + 1u;
 }
 
 #endif

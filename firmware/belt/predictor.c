@@ -3,71 +3,84 @@
 
 #define HALF BELT_REAL(0.5)
 
-/** The march's own state, at a line between two cells. */
+/** The march's own state, at a line between two stretches of belt. */
+typedef struct {
+    belt_real_t level;        /**< p1 [parts]. */
+    belt_real_t arrival;      /**< sigma - t [s]. */
+    belt_real_t pace;         /**< time a spacing takes, slowness*spacing [s]. */
+    belt_real_t tail;         /**< level that leaves the window [parts]. */
+    belt_real_t survival;     /**< K; at the line for uniform loss, else at the last middle. */
+    belt_real_t rework;       /**< I; likewise. */
+    belt_real_t rework_slope; /**< how much less of the rework a spacing on; uniform loss only. */
+    uint32_t count;           /**< stretches passed. */
+    uint32_t tail_line;       /**< the line at or before the window's end, once it is predicted. */
+} march_t;
+
+/** What the march reads and where it writes. */
 typedef struct {
     const belt_line_t *line;
     const belt_level_history_t *history;
     const belt_observer_t *observer;
     belt_prediction_t *prediction;
-    belt_real_t gain;         /**< level gained per density and spacing, alpha*spacing. */
-    belt_real_t pace_slope;   /**< change of pace per congestion. */
-    belt_real_t level;        /**< p1 [parts]. */
-    belt_real_t arrival;      /**< sigma - t [s]. */
-    belt_real_t pace;         /**< time a spacing takes, slowness*spacing [s]. */
-    belt_real_t tail;         /**< level that leaves the window [parts]. */
-    belt_transfer_t transfer; /**< K and I: at the line for uniform loss, else at the last centre. */
-    belt_real_t rework_slope; /**< how much less of the rework a spacing on; uniform loss only. */
-    uint16_t lines;           /**< lines passed: index of the present one. */
-    uint16_t tail_line;       /**< the line at or before the window's end, once it is predicted. */
-} march_t;
+    belt_real_t gain;       /**< level gained per density and spacing, alpha*spacing. */
+    belt_real_t pace_slope; /**< change of pace per congestion. */
+} setting_t;
 
-/** Predicted level at a time from now that lies between lines already passed. */
-static belt_real_t predicted_tail(march_t *march, belt_real_t time) {
-    const belt_prediction_t *p = march->prediction;
-    while ((march->tail_line + 1 < march->lines) && (p->arrival[march->tail_line + 1] <= time)) {
-        march->tail_line = (uint16_t)(march->tail_line + 1);
+/** What leaves with a stretch: one cell, or two behind each other. */
+typedef struct {
+    belt_real_t mean; /**< mean outlet density [parts/m]. */
+    belt_real_t lead; /**< a quarter of what the first cell has more of it than the second. */
+} leaving_t;
+
+/** Predicted level at a time from now, linear between the lines passed; the window's end only ever
+ * moves forward. */
+static belt_real_t predicted_level(const belt_prediction_t *prediction, march_t *march,
+                                   belt_real_t time) {
+    uint32_t line = march->tail_line;
+    while ((line + 1u < march->count) && (prediction->arrival[line + 1u] <= time)) {
+        ++line;
     }
-    const uint16_t before = march->tail_line;
-    if (before >= march->lines) {
-        return p->level[before];
+    march->tail_line = line;
+    if (line >= march->count) {
+        return march->level;
     }
-    const belt_real_t share = (time - p->arrival[before]) / p->dwell[before];
-    return p->level[before] + share * (p->level[before + 1] - p->level[before]);
+    const belt_real_t rise = prediction->level[line + 1u] - prediction->level[line];
+    const belt_real_t duration = prediction->arrival[line + 1u] - prediction->arrival[line];
+    return prediction->level[line] + rise * (time - prediction->arrival[line]) / duration;
 }
 
-/** Level that leaves the window at `arrival` from now: recorded, or itself predicted (MF5). */
-static belt_real_t level_leaving_window(march_t *march, belt_real_t arrival) {
-    const belt_real_t age = march->history->window - arrival * march->history->rate;
-    if (age >= BELT_REAL(0)) {
-        return belt_level_history_at(march->history, age);
-    }
-    return predicted_tail(march, -age * march->history->period);
+/** Pace in the middle of the stretch ahead (MF6). Finds the level that leaves the window there:
+ * recorded, or itself predicted (MF5). */
+static inline belt_real_t pace_ahead(const setting_t *at, march_t *march, belt_real_t width) {
+    const belt_real_t arrival = march->arrival + HALF * width * march->pace;
+    const belt_real_t age = at->history->window - arrival * at->history->rate;
+    march->tail = (age >= BELT_REAL(0))
+                      ? belt_level_history_at(at->history, age)
+                      : predicted_level(at->prediction, march, -age * at->history->period);
+    const belt_real_t rise = at->pace_slope * (march->level - march->tail) * march->pace;
+    return march->pace + HALF * width * rise;
 }
 
-/** Time that `width` spacings will take to pass the outlet (MF6): the pace of the middle. */
-static belt_real_t dwell_ahead(march_t *march, belt_real_t width) {
-    const belt_real_t half = HALF * width;
-    march->tail = level_leaving_window(march, march->arrival + half * march->pace);
-    const belt_real_t rise = march->pace_slope * (march->level - march->tail) * march->pace;
-    return width * (march->pace + half * rise);
-}
-
-/** Level, congestion and time behind a cell that leaves with `outlet_density` (MF3, MF5, MF6). */
-static void pass_cell(march_t *march, belt_real_t width, belt_real_t dwell,
-                      belt_real_t outlet_density) {
-    const belt_real_t inflow = march->gain * outlet_density * width;
-    const belt_real_t middle =
-        march->level + HALF * (inflow - belt_line_service(march->line, march->level) * dwell);
-    march->level += inflow - belt_line_service(march->line, middle) * dwell;
+/** Level, congestion and time behind a stretch (MF3, MF5, MF6). */
+static inline void pass(const setting_t *at, march_t *march, belt_real_t width, belt_real_t pace,
+                        leaving_t leaving) {
+    const belt_real_t dwell = width * pace;
+    const belt_real_t gain = at->gain * width;
+    const belt_real_t inflow = gain * leaving.mean;
+    const belt_real_t outflow = belt_line_service(at->line, march->level) * dwell;
+    const belt_real_t middle = march->level + gain * leaving.lead + HALF * (inflow - outflow);
+    march->level += inflow - belt_line_service(at->line, middle) * dwell;
     march->arrival += dwell;
-    march->pace += march->pace_slope * (middle - march->tail) * dwell;
+    march->pace += at->pace_slope * (middle - march->tail) * dwell;
 
-    belt_prediction_t *p = march->prediction;
-    p->outlet_density[march->lines] = outlet_density;
-    p->dwell[march->lines] = dwell;
-    march->lines = (uint16_t)(march->lines + 1);
-    p->level[march->lines] = march->level;
-    p->arrival[march->lines] = march->arrival;
+    belt_prediction_t *p = at->prediction;
+    const uint32_t count = march->count;
+    p->width[count] = width;
+    p->pace[count] = pace;
+    p->outlet_density[count] = leaving.mean;
+    p->level[count + 1u] = march->level;
+    p->arrival[count + 1u] = march->arrival;
+    march->count = count + 1u;
 }
 
 /* Uniform loss: all material ages alike, so survival and rework are carried along (MF4, MF7):
@@ -75,148 +88,216 @@ static void pass_cell(march_t *march, belt_real_t width, belt_real_t dwell,
  *     rework'       = A*D*p2 - C*rework - rework_slope per spacing
  *     rework_slope' = A*spacing*p2 - C*rework_slope
  */
-static void carry_transfer(march_t *march, belt_real_t width, belt_real_t dwell, belt_real_t kept,
-                           belt_real_t outlet_density) {
-    const belt_real_t left = outlet_density * dwell;
-    const belt_real_t slope_gain = march->line->rework_per_spacing * left;
-    const belt_real_t slope_middle = kept * march->rework_slope + HALF * slope_gain;
-    belt_transfer_t *transfer = &march->transfer;
-    transfer->survival *= kept * kept;
-    transfer->rework = kept * (kept * transfer->rework + march->line->rework_at_outlet * left -
-                               slope_middle * width);
-    march->rework_slope = kept * (kept * march->rework_slope + slope_gain);
+
+/** One cell's factors, the same for cells of one width and pace. */
+typedef struct {
+    belt_real_t width;        /**< [spacings]. */
+    belt_real_t kept;         /**< survives half the cell. */
+    belt_real_t kept_halfway; /**< survives a quarter. */
+    belt_real_t half_dwell;   /**< half the time it takes, rework in it included [s]. */
+    belt_real_t rework;       /**< A*D*dwell: rework of the whole cell per density leaving. */
+    belt_real_t slope;        /**< A*spacing*dwell: its change a spacing on. */
+} factors_t;
+
+static inline factors_t factors_of(const belt_line_t *line, belt_real_t width, belt_real_t pace) {
+    const belt_real_t dwell = width * pace;
+    const belt_real_t loss = HALF * line->loss_mean * dwell;
+    factors_t factors;
+    factors.width = width;
+    factors.kept = belt_line_survival(loss);
+    factors.kept_halfway = BELT_REAL(1) - HALF * loss;
+    factors.rework = line->rework_at_outlet * dwell;
+    factors.slope = line->rework_per_spacing * dwell;
+    factors.half_dwell = HALF + BELT_REAL(0.25) * factors.rework;
+    return factors;
 }
 
-/** p2 of a cell whose centre passes the outlet in the middle of the step; uniform loss. */
-static belt_real_t carried_density(march_t *march, belt_real_t width, belt_real_t dwell,
-                                   belt_real_t density) {
-    const belt_line_t *line = march->line;
-    const belt_real_t loss = HALF * line->loss_mean * dwell;
-    const belt_real_t kept = belt_line_survival(loss);
-    const belt_real_t kept_halfway = BELT_REAL(1) - HALF * loss;
-    const belt_real_t before = kept * (march->transfer.survival * density + march->transfer.rework);
-    const belt_real_t half_rework = HALF * line->rework_at_outlet * dwell;
-    const belt_real_t left = HALF * dwell * before * (BELT_REAL(1) + half_rework);
+/** Behind a cell that leaves with `density`. */
+static inline void carry(march_t *march, const factors_t *factors, belt_real_t density) {
+    const belt_real_t kept = factors->kept;
+    const belt_real_t slope_gain = factors->slope * density;
+    const belt_real_t slope_kept = kept * march->rework_slope;
+    march->survival *= kept * kept;
+    march->rework = kept * (kept * march->rework + factors->rework * density -
+                            (slope_kept + HALF * slope_gain) * factors->width);
+    march->rework_slope = kept * (slope_kept + slope_gain);
+}
+
+/** p2 of one cell, in its middle: half a step, with what leaves in it and the slope at a quarter. */
+static inline belt_real_t carried_density(march_t *march, const factors_t *factors,
+                                          belt_real_t density) {
+    const belt_real_t before = factors->kept * (march->survival * density + march->rework);
+    const belt_real_t left = factors->half_dwell * before;
     const belt_real_t slope =
-        kept_halfway * march->rework_slope + HALF * line->rework_per_spacing * left;
+        factors->kept_halfway * march->rework_slope + HALF * factors->slope * left;
     const belt_real_t outlet_density =
-        before + kept_halfway * (line->rework_at_outlet * left - HALF * slope * width);
-    carry_transfer(march, width, dwell, kept, outlet_density);
+        before +
+        factors->kept_halfway * (factors->rework * left - HALF * slope * factors->width);
+    carry(march, factors, outlet_density);
     return outlet_density;
 }
 
-static belt_passed_t passed_cells(const march_t *march) {
-    belt_passed_t passed;
-    passed.dwell = march->prediction->dwell;
-    passed.outlet_density = march->prediction->outlet_density;
-    passed.count = march->lines;
-    passed.first_width = BELT_REAL(1) - march->observer->gone;
+/** Whole cells in pairs, uniform loss: the loop in which the step spends its time. */
+static uint32_t march_pairs(const setting_t *at, march_t *start, uint32_t cell, uint32_t pairs) {
+    const belt_line_t *line = at->line;
+    march_t march = *start;
+    for (uint32_t i = 0; i < pairs; ++i) {
+        const belt_real_t pace = pace_ahead(at, &march, BELT_REAL(2));
+        const factors_t factors = factors_of(line, BELT_REAL(1), pace);
+        const belt_real_t first = carried_density(&march, &factors, at->observer->density[cell]);
+        cell = belt_observer_next(line, cell);
+        const belt_real_t second = carried_density(&march, &factors, at->observer->density[cell]);
+        cell = belt_observer_next(line, cell);
+        const leaving_t leaving = {HALF * (first + second), BELT_REAL(0.125) * (first - second)};
+        pass(at, &march, BELT_REAL(2), pace, leaving);
+    }
+    *start = march;
+    return cell;
+}
+
+static belt_passed_t passed_stretches(const belt_prediction_t *prediction, uint32_t count) {
+    const belt_passed_t passed = {prediction->width, prediction->pace, prediction->outlet_density,
+                                  count};
     return passed;
 }
 
-/** The same for any loss: the cell's centre at `place` is moved past all cells before it. */
-static belt_real_t forwarded_density(march_t *march, belt_real_t place, belt_real_t width,
-                                     belt_real_t dwell, belt_real_t density) {
-    const belt_passed_t passed = passed_cells(march);
-    march->transfer = belt_fast_forward(march->line, &passed, place);
-    const belt_real_t left = march->transfer.survival * density + march->transfer.rework;
-    belt_fast_forward_last(&march->transfer, march->line, HALF * width, HALF * dwell, left);
-    return march->transfer.survival * density + march->transfer.rework;
+/** Any loss: survival and rework of the material that passes the outlet in the middle of a stretch
+ * `width` wide, from `place`. */
+static void forward(const setting_t *at, march_t *march, belt_real_t place, belt_real_t width,
+                    belt_real_t pace, belt_real_t density) {
+    const belt_passed_t passed = passed_stretches(at->prediction, march->count);
+    belt_transfer_t transfer = belt_fast_forward(at->line, &passed, place);
+    const belt_real_t left = transfer.survival * density + transfer.rework;
+    belt_fast_forward_last(&transfer, at->line, HALF * width, pace, left);
+    march->survival = transfer.survival;
+    march->rework = transfer.rework;
 }
 
-static void march_over(march_t *march, uint16_t cell, belt_real_t place, belt_real_t width) {
-    const belt_real_t density = march->observer->density[cell];
-    const belt_real_t dwell = dwell_ahead(march, width);
-    const belt_real_t outlet_density =
-        march->line->loss_is_uniform ? carried_density(march, width, dwell, density)
-                                     : forwarded_density(march, place, width, dwell, density);
-    pass_cell(march, width, dwell, outlet_density);
-}
+/** The pairs again, for any loss: the middle is moved past all before it, the two cells told apart
+ * by the loss between them. */
+static uint32_t march_pairs_forward(const setting_t *at, march_t *march, uint32_t cell,
+                                    uint32_t pairs, belt_real_t place) {
+    const belt_line_t *line = at->line;
+    for (uint32_t i = 0; i < pairs; ++i) {
+        const uint32_t inner = cell;
+        const uint32_t outer = belt_observer_next(line, cell);
+        const belt_real_t pace = pace_ahead(at, march, BELT_REAL(2));
+        const belt_real_t middle = place + (belt_real_t)(2u * i + 1u);
+        const belt_real_t sum = at->observer->density[inner] + at->observer->density[outer];
+        forward(at, march, middle, BELT_REAL(2), pace, HALF * sum);
 
-/** The outlet cell: its centre has less than half a spacing to go, or has left. */
-static void march_over_outlet_cell(march_t *march) {
-    const belt_real_t gone = march->observer->gone;
-    const belt_real_t width = BELT_REAL(1) - gone;
-    const belt_real_t dwell = dwell_ahead(march, width);
-    const belt_real_t rest = belt_observer_rest_of_outlet(march->observer);
-    belt_real_t outlet_density = rest;
-    if (gone < HALF) {
-        belt_transfer_t transfer = {BELT_REAL(1), BELT_REAL(0)};
-        const belt_real_t place = HALF - gone;
-        belt_fast_forward_last(&transfer, march->line, place, place * march->pace, rest);
-        outlet_density = transfer.survival * rest + transfer.rework;
-    }
-    const belt_real_t kept = belt_line_survival(HALF * march->line->loss_mean * dwell);
-    carry_transfer(march, width, dwell, kept, outlet_density);
-    pass_cell(march, width, dwell, outlet_density);
-}
-
-/** Whole cells from one up to, without, another; returns the last one's ring index. */
-static uint16_t march_over_whole_cells(march_t *march, uint16_t cell, uint16_t from, uint16_t to) {
-    belt_real_t place = (belt_real_t)from + HALF - march->observer->gone;
-    for (uint16_t i = from; i < to; ++i) {
-        cell = belt_observer_next(march->line, cell);
-        march_over(march, cell, place, BELT_REAL(1));
-        place += BELT_REAL(1);
+        const belt_real_t loss = HALF * line->loss[(int32_t)middle] * pace;
+        const belt_real_t more = BELT_REAL(1) + loss + HALF * loss * loss;
+        const belt_real_t less = more - BELT_REAL(2) * loss;
+        const belt_real_t first = march->survival * more * at->observer->density[inner];
+        const belt_real_t second = march->survival * less * at->observer->density[outer];
+        const leaving_t leaving = {HALF * (first + second) + march->rework,
+                                   BELT_REAL(0.125) * (first - second)};
+        pass(at, march, BELT_REAL(2), pace, leaving);
+        cell = belt_observer_next(line, outer);
     }
     return cell;
 }
 
-/** What (MF1) asks for at the inlet, out of the march's last line. `before` is the rework at a place
- * one cell earlier. */
-static void conclude(march_t *march, belt_real_t before) {
-    const belt_line_t *line = march->line;
-    const belt_real_t gone = march->observer->gone;
-    belt_prediction_t *p = march->prediction;
-    belt_transfer_t transfer = march->transfer;
-    belt_real_t distance = BELT_REAL(1) + gone;
-    if (!line->loss_is_uniform) {
-        belt_passed_t passed = passed_cells(march);
-        passed.count = line->node_count;
-        transfer = belt_fast_forward(line, &passed, (belt_real_t)line->node_count);
-        belt_fast_forward_last(&transfer, line, gone, p->dwell[line->node_count],
-                               p->outlet_density[line->node_count]);
-        distance += HALF;
+/** One cell by itself, `width` wide, its middle at `place`. */
+static void march_single(const setting_t *at, march_t *march, uint32_t cell, belt_real_t place,
+                         belt_real_t width) {
+    const belt_real_t density = at->observer->density[cell];
+    const belt_real_t pace = pace_ahead(at, march, width);
+    leaving_t leaving = {BELT_REAL(0), BELT_REAL(0)};
+    if (at->line->loss_is_uniform) {
+        const factors_t factors = factors_of(at->line, width, pace);
+        leaving.mean = carried_density(march, &factors, density);
+    } else {
+        forward(at, march, place, width, pace, density);
+        leaving.mean = march->survival * density + march->rework;
     }
+    pass(at, march, width, pace, leaving);
+}
+
+/** The outlet cell: its centre has less than half a spacing to go, or has left. */
+static void march_outlet_cell(const setting_t *at, march_t *march) {
+    const belt_real_t gone = at->observer->gone;
+    const belt_real_t width = BELT_REAL(1) - gone;
+    const belt_real_t pace = pace_ahead(at, march, width);
+    const belt_real_t rest = belt_observer_rest_of_outlet(at->observer);
+    leaving_t leaving = {rest, BELT_REAL(0)};
+    if (gone < HALF) {
+        belt_transfer_t transfer = {BELT_REAL(1), BELT_REAL(0)};
+        belt_fast_forward_last(&transfer, at->line, HALF - gone, pace, rest);
+        leaving.mean = transfer.survival * rest + transfer.rework;
+    }
+    const factors_t factors = factors_of(at->line, width, pace);
+    carry(march, &factors, leaving.mean);
+    pass(at, march, width, pace, leaving);
+}
+
+/** Whole cells 1 ... node_count - 1; `before` gets the rework before the last of them. Returns the
+ * open cell's ring index. */
+static uint32_t march_whole_cells(const setting_t *at, march_t *march, belt_real_t *before) {
+    const belt_line_t *line = at->line;
+    const uint32_t pairs = (line->node_count - 2u) / 2u;
+    belt_real_t place = BELT_REAL(1) - at->observer->gone;
+    uint32_t cell = belt_observer_next(line, at->observer->outlet);
+    if ((line->node_count & 1u) != 0u) {
+        march_single(at, march, cell, place + HALF, BELT_REAL(1));
+        place += BELT_REAL(1);
+        cell = belt_observer_next(line, cell);
+    }
+    cell = line->loss_is_uniform ? march_pairs(at, march, cell, pairs)
+                                 : march_pairs_forward(at, march, cell, pairs, place);
+    *before = march->rework;
+    place += (belt_real_t)(2u * pairs);
+    march_single(at, march, cell, place + HALF, BELT_REAL(1));
+    return belt_observer_next(line, cell);
+}
+
+/** What (MF1) asks for at the inlet, out of the march's last line. `before` is the rework of the
+ * material where the last whole cell begins, or where the pair before it has its middle. */
+static void conclude(const setting_t *at, march_t *march, belt_real_t before) {
+    const belt_line_t *line = at->line;
+    belt_prediction_t *p = at->prediction;
+    const uint32_t last = march->count - 1u;
+    belt_real_t distance = BELT_REAL(1) + p->width[last];
+    if (!line->loss_is_uniform) {
+        const belt_passed_t passed = passed_stretches(p, last);
+        belt_transfer_t transfer =
+            belt_fast_forward(line, &passed, (belt_real_t)line->node_count);
+        belt_fast_forward_last(&transfer, line, p->width[last], p->pace[last],
+                               p->outlet_density[last]);
+        march->survival = transfer.survival;
+        march->rework = transfer.rework;
+        distance += BELT_REAL(1);
+    }
+    p->count = march->count;
     p->inlet_level = march->level;
     p->inlet_arrival = march->arrival;
     p->inlet_slowness = march->pace / line->spacing;
     p->inlet_congestion = (p->inlet_slowness - line->slowness_empty) / line->slowness_slope;
-    p->inlet_survival = transfer.survival;
-    p->inlet_rework = transfer.rework;
-    p->inlet_rework_slope = (transfer.rework - before) / distance;
+    p->inlet_survival = march->survival;
+    p->inlet_rework = march->rework;
+    p->inlet_rework_slope = (march->rework - before) / distance;
     p->inlet_tail = march->tail;
 }
 
 void belt_predictor_march(belt_prediction_t *prediction, const belt_line_t *line,
                           const belt_level_history_t *history, const belt_observer_t *observer,
                           const belt_present_t *present, belt_prediction_kind_t kind) {
-    march_t march;
-    march.line = line;
-    march.history = history;
-    march.observer = observer;
-    march.prediction = prediction;
-    march.gain = line->connectivity * line->spacing;
-    march.pace_slope =
+    const belt_real_t pace_slope =
         (kind == BELT_HOLD_CONGESTION) ? BELT_REAL(0) : line->slowness_slope * line->spacing;
+    const setting_t at = {line, history, observer, prediction, line->connectivity * line->spacing,
+                          pace_slope};
+    march_t march = {0};
     march.level = present->level;
-    march.arrival = BELT_REAL(0);
     march.pace = belt_line_slowness(line, present->congestion) * line->spacing;
-    march.transfer.survival = BELT_REAL(1);
-    march.transfer.rework = BELT_REAL(0);
-    march.rework_slope = BELT_REAL(0);
-    march.lines = 0;
-    march.tail_line = 0;
+    march.survival = BELT_REAL(1);
     prediction->level[0] = march.level;
     prediction->arrival[0] = march.arrival;
 
-    const uint16_t last_whole = (uint16_t)(line->node_count - 1);
-    march_over_outlet_cell(&march);
-    uint16_t cell = march_over_whole_cells(&march, observer->outlet, 1, last_whole);
-    const belt_real_t rework_before = march.transfer.rework;
-    cell = march_over_whole_cells(&march, cell, last_whole, line->node_count);
-    cell = belt_observer_next(line, cell);
-    march_over(&march, cell, (belt_real_t)line->node_count - HALF * observer->gone,
-               observer->gone);
-    conclude(&march, rework_before);
+    belt_real_t rework_before = BELT_REAL(0);
+    march_outlet_cell(&at, &march);
+    const uint32_t open = march_whole_cells(&at, &march, &rework_before);
+    march_single(&at, &march, open, (belt_real_t)line->node_count - HALF * observer->gone,
+                 observer->gone);
+    conclude(&at, &march, rework_before);
 }

@@ -11,8 +11,9 @@
  *     p3_x    = (p1 - level at sigma - speed_window)*slowness(p3)
  *     p2      = survival*density + rework picked up on the way
  *
- * One midpoint step a cell: second order. The window of p3 slides out of the recorded levels into
- * the predicted ones once sigma - speed_window lies in the future.
+ * Level, time and congestion take one midpoint step for two cells, survival and rework one for each:
+ * second order, also where the density jumps between the cells. The window of p3 slides out of the
+ * recorded levels into the predicted ones once sigma - speed_window lies in the future.
  *
  * Cost: COST
  */
@@ -23,13 +24,19 @@
 #include "level_history.h"
 #include "observer.h"
 
-/** What the march found. Index 0 is the outlet now; line i lies at the inlet end of the i-th cell
- * passed, the last one (node_count + 1) at the inlet. Times are from now. */
+/** Stretches that a march passes: the outlet cell, whole cells in pairs (the first one alone when
+ * node_count is odd), the last whole cell, the open one. */
+#define BELT_STRETCH_CAPACITY (BELT_NODE_CAPACITY / 2 + 3)
+
+/** What the march found. Line 0 is the outlet now, line i + 1 the inlet end of stretch i, the last
+ * line the inlet. Times are from now. */
 typedef struct {
-    belt_real_t level[BELT_CELL_CAPACITY + 1];   /**< p1 at the lines [parts]. */
-    belt_real_t arrival[BELT_CELL_CAPACITY + 1]; /**< sigma - t at the lines [s]. */
-    belt_real_t outlet_density[BELT_CELL_CAPACITY]; /**< p2 of each cell's centre [parts/m]. */
-    belt_real_t dwell[BELT_CELL_CAPACITY]; /**< time each cell takes to pass the outlet [s]. */
+    belt_real_t level[BELT_STRETCH_CAPACITY + 1];   /**< p1 at the lines [parts]. */
+    belt_real_t arrival[BELT_STRETCH_CAPACITY + 1]; /**< sigma - t at the lines [s]. */
+    belt_real_t width[BELT_STRETCH_CAPACITY];       /**< of each stretch, at most 2 [spacings]. */
+    belt_real_t pace[BELT_STRETCH_CAPACITY]; /**< time for a spacing as each passes the outlet [s]. */
+    belt_real_t outlet_density[BELT_STRETCH_CAPACITY]; /**< p2, its mean over each [parts/m]. */
+    uint32_t count;                                    /**< stretches. */
 
     belt_real_t inlet_level;      /**< p1(D) [parts]. */
     belt_real_t inlet_arrival;    /**< sigma(D) - t: the dead time [s]. */
