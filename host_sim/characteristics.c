@@ -36,6 +36,10 @@ static const parcel_t *seen_at(const characteristics_t *self, size_t index) {
     return &self->parcel[(self->first + index) % self->capacity];
 }
 
+/** Places closer than this share of the belt are the same: the same line in other units must not
+ * round to another side of an edge. */
+#define SAME_PLACE 1e-9
+
 /** Travel of a parcel's newer edge: the next one's older edge, or what is being fed now. */
 static double newer_travel(const characteristics_t *self, size_t index) {
     return (index + 1 < self->count) ? seen_at(self, index + 1)->travel : self->travel;
@@ -132,7 +136,8 @@ static double age_parcels(characteristics_t *self, const plant_t *plant, double 
 }
 
 static void drop_what_left(characteristics_t *self, double outlet) {
-    while ((self->count > 1) && (newer_travel(self, 0) <= outlet)) {
+    const double same = SAME_PLACE * (self->travel - outlet);
+    while ((self->count > 1) && (newer_travel(self, 0) <= outlet + same)) {
         self->first = (self->first + 1) % self->capacity;
         self->count -= 1;
     }
@@ -142,7 +147,8 @@ static void advance(void *belt, plant_t *plant, double flux, bool fresh) {
     characteristics_t *self = belt;
     const line_t *line = plant->setup.line;
     const double dt = plant->step;
-    if (fresh || (self->travel - seen_at(self, self->count - 1)->travel >= self->parcel_size)) {
+    const double grown = self->travel - seen_at(self, self->count - 1)->travel;
+    if (fresh || (grown >= self->parcel_size * (1.0 - SAME_PLACE))) {
         begin_parcel(self, flux / line_speed(line, plant->congestion));
     }
     const double rising = plant->level - speed_window_tail(&plant->window);

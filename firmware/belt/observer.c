@@ -2,6 +2,8 @@
 #include "observer.h"
 
 #define HALF BELT_REAL(0.5)
+/** A later cut must tell this much more apart: equals stay equal under rounding, in any units. */
+#define BETTER BELT_REAL(1.001)
 /** A cut closer to the inlet end than this is not worth telling the sides apart. */
 #define LATEST_CUT BELT_REAL(0.99)
 
@@ -13,6 +15,7 @@ void belt_observer_init(belt_observer_t *observer) {
     }
     observer->outlet = 0;
     observer->gone = BELT_REAL(0);
+    observer->outlet_is_second = false;
     observer->outlet_density = BELT_REAL(0);
     observer->fed_density = BELT_REAL(0);
     observer->early = BELT_REAL(0);
@@ -82,36 +85,71 @@ static belt_real_t leaving_density(const belt_observer_t *observer, const belt_l
     return own + on_leaving(observer, line, next / travel, HALF, pace);
 }
 
-/** Loss and rework of the whole cells and the outlet cell over one period. */
-static void age_cells(belt_observer_t *observer, const belt_line_t *line,
-                      const belt_passage_t *passage, belt_real_t pace) {
-    const belt_real_t travel = passage->travel;
-    const belt_real_t offset = HALF - observer->gone;
-    /* Cells are `offset` beyond a node and move on together: one part of the period in one node
-     * spacing, the other in the next, the same for all of them. */
-    const belt_real_t ahead = (offset > BELT_REAL(0)) ? offset : BELT_REAL(0);
-    const belt_real_t here = (travel < ahead) ? travel : ahead;
-    const belt_real_t time_here = here * pace;
-    const belt_real_t time_next = (travel - here) * pace;
-    const belt_real_t source = observer->outlet_density * passage->duration;
+/** One period's ageing of whole cells, the same for all or different from cell to cell. */
+typedef struct {
+    const belt_line_t *line;
+    belt_real_t time_here;   /**< time in the spacing a cell's centre is in [s]. */
+    belt_real_t time_next;   /**< time in the next one towards the outlet [s]. */
+    belt_real_t rework;      /**< density that comes back to the first cell [parts/m]. */
+    belt_real_t rework_less; /**< how much less of it each cell further in [parts/m]. */
+} ageing_t;
 
+static void age_uniform(belt_observer_t *observer, ageing_t ageing) {
+    const belt_line_t *line = ageing.line;
+    const belt_real_t loss = line->loss_mean * (ageing.time_here + ageing.time_next);
+    const belt_real_t survival = belt_line_survival(loss);
+    const belt_real_t rework_less = ageing.rework_less * (BELT_REAL(1) - HALF * loss);
+    belt_real_t rework = ageing.rework * (BELT_REAL(1) - HALF * loss);
     uint32_t cell = observer->outlet;
-    if (here > BELT_REAL(0)) {
-        observer->density[cell] =
-            observer->density[cell] * belt_line_survival(line->loss[0] * time_here) +
-            line->rework_at_outlet * observer->outlet_density * time_here;
-    }
-    belt_real_t rework =
-        source * belt_line_rework(line, BELT_REAL(1) + offset - HALF * travel);
-    const belt_real_t rework_less = source * line->rework_per_spacing;
     for (uint32_t i = 1; i < line->node_count; ++i) {
         cell = belt_observer_next(line, cell);
-        const belt_real_t loss = time_here * line->loss[i] + time_next * line->loss[i - 1];
+        observer->density[cell] = observer->density[cell] * survival + rework;
+        observer->step[cell] *= survival;
+        rework -= rework_less;
+    }
+}
+
+static void age_profile(belt_observer_t *observer, ageing_t ageing) {
+    const belt_line_t *line = ageing.line;
+    belt_real_t rework = ageing.rework;
+    uint32_t cell = observer->outlet;
+    for (uint32_t i = 1; i < line->node_count; ++i) {
+        cell = belt_observer_next(line, cell);
+        const belt_real_t loss =
+            ageing.time_here * line->loss[i] + ageing.time_next * line->loss[i - 1];
         const belt_real_t survival = belt_line_survival(loss);
         observer->density[cell] =
             observer->density[cell] * survival + rework * (BELT_REAL(1) - HALF * loss);
         observer->step[cell] *= survival;
-        rework -= rework_less;
+        rework -= ageing.rework_less;
+    }
+}
+
+/** Loss and rework of the outlet cell and the whole cells over one period. */
+static void age_cells(belt_observer_t *observer, const belt_line_t *line,
+                      const belt_passage_t *passage, belt_real_t pace) {
+    const belt_real_t travel = passage->travel;
+    const belt_real_t offset = HALF - observer->gone;
+    /* Centres lie `offset` beyond a node and move on together: one part of the period in one node
+     * spacing, the other in the next, the same for all of them. */
+    const belt_real_t ahead = (offset > BELT_REAL(0)) ? offset : BELT_REAL(0);
+    const belt_real_t here = (travel < ahead) ? travel : ahead;
+    const belt_real_t source = observer->outlet_density * passage->duration;
+    const ageing_t ageing = {
+        line,
+        here * pace,
+        (travel - here) * pace,
+        source * belt_line_rework(line, BELT_REAL(1) + offset - HALF * travel),
+        source * line->rework_per_spacing,
+    };
+    observer->density[observer->outlet] =
+        observer->density[observer->outlet] *
+            belt_line_survival(line->loss[0] * ageing.time_here) +
+        line->rework_at_outlet * observer->outlet_density * ageing.time_here;
+    if (line->loss_is_uniform) {
+        age_uniform(observer, ageing);
+    } else {
+        age_profile(observer, ageing);
     }
 }
 
@@ -120,7 +158,7 @@ static void consider_cut(belt_observer_t *observer, uint32_t open, belt_real_t f
                          belt_real_t density) {
     const belt_real_t jump = density - observer->fed_density;
     const belt_real_t weight = jump * jump * from * (BELT_REAL(1) - from);
-    if ((weight > observer->cut_weight) && (from < LATEST_CUT)) {
+    if ((weight > BETTER * observer->cut_weight) && (from < LATEST_CUT)) {
         observer->cut_weight = weight;
         observer->cut[open] = from;
         observer->early = observer->density[open];
@@ -158,6 +196,7 @@ static void close_cell(belt_observer_t *observer, const belt_line_t *line, uint3
 
     const uint32_t emptied = observer->outlet;
     observer->outlet = belt_observer_next(line, emptied);
+    observer->outlet_is_second = !observer->outlet_is_second;
     observer->density[emptied] = BELT_REAL(0);
     observer->step[emptied] = BELT_REAL(0);
     observer->cut[emptied] = BELT_REAL(0);

@@ -32,6 +32,8 @@ typedef struct {
     uint32_t outlet;             /**< ring index of the outlet cell; the open cell stands before it. */
     belt_real_t gone;            /**< share of the outlet cell that has left, of the open cell that
                                       has been fed, [0, 1). */
+    bool outlet_is_second;       /**< the march takes cells in pairs that stay pairs on their way: the
+                                      outlet cell is the inlet-side one of its pair. */
     belt_real_t outlet_density;  /**< mean density that left in the last period [parts/m]. */
     belt_real_t fed_density;     /**< density fed in the last period [parts/m]. */
     belt_real_t early;           /**< open cell: mean density on the outlet side of its cut. */

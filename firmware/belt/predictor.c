@@ -9,6 +9,7 @@ typedef struct {
     belt_real_t arrival;      /**< sigma - t [s]. */
     belt_real_t pace;         /**< time a spacing takes, slowness*spacing [s]. */
     belt_real_t tail;         /**< level that leaves the window [parts]. */
+    belt_real_t place;        /**< of the line, now [spacings from the outlet]. */
     belt_real_t survival;     /**< K; at the line for uniform loss, else at the last middle. */
     belt_real_t rework;       /**< I; likewise. */
     belt_real_t rework_slope; /**< how much less of the rework a spacing on; uniform loss only. */
@@ -71,6 +72,7 @@ static inline void pass(const setting_t *at, march_t *march, belt_real_t width, 
     const belt_real_t middle = march->level + gain * leaving.lead + HALF * (inflow - outflow);
     march->level += inflow - belt_line_service(at->line, middle) * dwell;
     march->arrival += dwell;
+    march->place += width;
     march->pace += at->pace_slope * (middle - march->tail) * dwell;
 
     belt_prediction_t *p = at->prediction;
@@ -87,67 +89,67 @@ static inline void pass(const setting_t *at, march_t *march, belt_real_t width, 
  *     survival'     = -C*survival                            (' = d/dtime)
  *     rework'       = A*D*p2 - C*rework - rework_slope per spacing
  *     rework_slope' = A*spacing*p2 - C*rework_slope
- */
-
-/** One cell's factors, the same for cells of one width and pace. */
+ * All of it is linear, so one cell's midpoint step comes down to six factors. */
 typedef struct {
-    belt_real_t width;        /**< [spacings]. */
-    belt_real_t kept;         /**< survives half the cell. */
-    belt_real_t kept_halfway; /**< survives a quarter. */
-    belt_real_t half_dwell;   /**< half the time it takes, rework in it included [s]. */
-    belt_real_t rework;       /**< A*D*dwell: rework of the whole cell per density leaving. */
-    belt_real_t slope;        /**< A*spacing*dwell: its change a spacing on. */
+    belt_real_t kept;        /**< what survives the cell. */
+    belt_real_t leaving;     /**< outlet density per survival*density + rework at the near line... */
+    belt_real_t slope;       /**< ...less this much of the slope. */
+    belt_real_t rework;      /**< rework gained per outlet density. */
+    belt_real_t slope_lost;  /**< rework lost per slope. */
+    belt_real_t slope_gain;  /**< slope gained per outlet density. */
 } factors_t;
 
 static inline factors_t factors_of(const belt_line_t *line, belt_real_t width, belt_real_t pace) {
     const belt_real_t dwell = width * pace;
     const belt_real_t loss = HALF * line->loss_mean * dwell;
+    const belt_real_t kept = belt_line_survival(loss);         /* half a cell */
+    const belt_real_t kept_halfway = BELT_REAL(1) - HALF * loss; /* a quarter */
+    const belt_real_t rework = line->rework_at_outlet * dwell;
+    const belt_real_t slope = line->rework_per_spacing * dwell;
+    /* Half the cell's outlet density before its rework, that rework in it. */
+    const belt_real_t half = kept_halfway * (HALF + BELT_REAL(0.25) * rework);
     factors_t factors;
-    factors.width = width;
-    factors.kept = belt_line_survival(loss);
-    factors.kept_halfway = BELT_REAL(1) - HALF * loss;
-    factors.rework = line->rework_at_outlet * dwell;
-    factors.slope = line->rework_per_spacing * dwell;
-    factors.half_dwell = HALF + BELT_REAL(0.25) * factors.rework;
+    factors.kept = kept * kept;
+    factors.leaving = kept * (BELT_REAL(1) + half * (rework - BELT_REAL(0.25) * width * slope));
+    factors.slope = HALF * width * kept;
+    factors.rework = kept * (rework - HALF * width * slope);
+    factors.slope_lost = factors.kept * width;
+    factors.slope_gain = kept * slope;
     return factors;
 }
 
-/** Behind a cell that leaves with `density`. */
-static inline void carry(march_t *march, const factors_t *factors, belt_real_t density) {
-    const belt_real_t kept = factors->kept;
-    const belt_real_t slope_gain = factors->slope * density;
-    const belt_real_t slope_kept = kept * march->rework_slope;
-    march->survival *= kept * kept;
-    march->rework = kept * (kept * march->rework + factors->rework * density -
-                            (slope_kept + HALF * slope_gain) * factors->width);
-    march->rework_slope = kept * (slope_kept + slope_gain);
+/** Survival and rework behind a cell that leaves with `outlet_density`. */
+static inline void carry(march_t *march, const factors_t *factors, belt_real_t outlet_density) {
+    march->survival *= factors->kept;
+    march->rework = factors->kept * march->rework + factors->rework * outlet_density -
+                    factors->slope_lost * march->rework_slope;
+    march->rework_slope =
+        factors->kept * march->rework_slope + factors->slope_gain * outlet_density;
 }
 
-/** p2 of one cell, in its middle: half a step, with what leaves in it and the slope at a quarter. */
+/** p2 of one cell, as its middle leaves. */
 static inline belt_real_t carried_density(march_t *march, const factors_t *factors,
                                           belt_real_t density) {
-    const belt_real_t before = factors->kept * (march->survival * density + march->rework);
-    const belt_real_t left = factors->half_dwell * before;
-    const belt_real_t slope =
-        factors->kept_halfway * march->rework_slope + HALF * factors->slope * left;
     const belt_real_t outlet_density =
-        before +
-        factors->kept_halfway * (factors->rework * left - HALF * slope * factors->width);
+        factors->leaving * (march->survival * density + march->rework) -
+        factors->slope * march->rework_slope;
     carry(march, factors, outlet_density);
     return outlet_density;
 }
 
-/** Whole cells in pairs, uniform loss: the loop in which the step spends its time. */
-static uint32_t march_pairs(const setting_t *at, march_t *start, uint32_t cell, uint32_t pairs) {
-    const belt_line_t *line = at->line;
+/** Whole cells in pairs, uniform loss: the loop in which the step spends its time. `before` gets the
+ * rework at the last pair's near line. Returns the ring index of the cell behind them. */
+static uint32_t march_pairs(const setting_t *at, march_t *start, uint32_t cell, uint32_t pairs,
+                            belt_real_t *before) {
     march_t march = *start;
     for (uint32_t i = 0; i < pairs; ++i) {
         const belt_real_t pace = pace_ahead(at, &march, BELT_REAL(2));
-        const factors_t factors = factors_of(line, BELT_REAL(1), pace);
+        const factors_t factors = factors_of(at->line, BELT_REAL(1), pace);
+        *before = march.rework;
         const belt_real_t first = carried_density(&march, &factors, at->observer->density[cell]);
-        cell = belt_observer_next(line, cell);
+        cell = belt_observer_next(at->line, cell);
         const belt_real_t second = carried_density(&march, &factors, at->observer->density[cell]);
-        cell = belt_observer_next(line, cell);
+        cell = belt_observer_next(at->line, cell);
         const leaving_t leaving = {HALF * (first + second), BELT_REAL(0.125) * (first - second)};
         pass(at, &march, BELT_REAL(2), pace, leaving);
     }
@@ -161,104 +163,131 @@ static belt_passed_t passed_stretches(const belt_prediction_t *prediction, uint3
     return passed;
 }
 
-/** Any loss: survival and rework of the material that passes the outlet in the middle of a stretch
- * `width` wide, from `place`. */
-static void forward(const setting_t *at, march_t *march, belt_real_t place, belt_real_t width,
+/** Any loss: survival and rework of the material at `place`, past all stretches before and then
+ * `rest` spacings more at `pace`. */
+static void forward(const setting_t *at, march_t *march, belt_real_t place, belt_real_t rest,
                     belt_real_t pace, belt_real_t density) {
     const belt_passed_t passed = passed_stretches(at->prediction, march->count);
     belt_transfer_t transfer = belt_fast_forward(at->line, &passed, place);
     const belt_real_t left = transfer.survival * density + transfer.rework;
-    belt_fast_forward_last(&transfer, at->line, HALF * width, pace, left);
+    belt_fast_forward_last(&transfer, at->line, rest, pace, left);
     march->survival = transfer.survival;
     march->rework = transfer.rework;
 }
 
 /** The pairs again, for any loss: the middle is moved past all before it, the two cells told apart
- * by the loss between them. */
+ * by the loss between them. `before` gets the rework at the last pair's middle. */
 static uint32_t march_pairs_forward(const setting_t *at, march_t *march, uint32_t cell,
-                                    uint32_t pairs, belt_real_t place) {
+                                    uint32_t pairs, belt_real_t *before) {
     const belt_line_t *line = at->line;
     for (uint32_t i = 0; i < pairs; ++i) {
-        const uint32_t inner = cell;
-        const uint32_t outer = belt_observer_next(line, cell);
+        const uint32_t outer_cell = belt_observer_next(line, cell);
+        const belt_real_t inner = at->observer->density[cell];
+        const belt_real_t outer = at->observer->density[outer_cell];
+        const belt_real_t middle = march->place + BELT_REAL(1);
         const belt_real_t pace = pace_ahead(at, march, BELT_REAL(2));
-        const belt_real_t middle = place + (belt_real_t)(2u * i + 1u);
-        const belt_real_t sum = at->observer->density[inner] + at->observer->density[outer];
-        forward(at, march, middle, BELT_REAL(2), pace, HALF * sum);
+        forward(at, march, middle, BELT_REAL(1), pace, HALF * (inner + outer));
 
         const belt_real_t loss = HALF * line->loss[(int32_t)middle] * pace;
         const belt_real_t more = BELT_REAL(1) + loss + HALF * loss * loss;
         const belt_real_t less = more - BELT_REAL(2) * loss;
-        const belt_real_t first = march->survival * more * at->observer->density[inner];
-        const belt_real_t second = march->survival * less * at->observer->density[outer];
+        const belt_real_t first = march->survival * more * inner;
+        const belt_real_t second = march->survival * less * outer;
         const leaving_t leaving = {HALF * (first + second) + march->rework,
                                    BELT_REAL(0.125) * (first - second)};
         pass(at, march, BELT_REAL(2), pace, leaving);
-        cell = belt_observer_next(line, outer);
+        cell = belt_observer_next(line, outer_cell);
     }
+    *before = march->rework;
     return cell;
 }
 
-/** One cell by itself, `width` wide, its middle at `place`. */
-static void march_single(const setting_t *at, march_t *march, uint32_t cell, belt_real_t place,
-                         belt_real_t width) {
-    const belt_real_t density = at->observer->density[cell];
-    const belt_real_t pace = pace_ahead(at, march, width);
-    leaving_t leaving = {BELT_REAL(0), BELT_REAL(0)};
+/** p2 of one cell in a stretch at an end of the belt, `ahead` spacings behind the stretch's start. */
+static belt_real_t end_density(const setting_t *at, march_t *march, belt_real_t density,
+                               belt_real_t ahead, belt_real_t width, belt_real_t pace) {
     if (at->line->loss_is_uniform) {
         const factors_t factors = factors_of(at->line, width, pace);
-        leaving.mean = carried_density(march, &factors, density);
-    } else {
-        forward(at, march, place, width, pace, density);
-        leaving.mean = march->survival * density + march->rework;
+        return carried_density(march, &factors, density);
     }
-    pass(at, march, width, pace, leaving);
+    const belt_real_t rest = ahead + HALF * width;
+    forward(at, march, march->place + rest, rest, pace, density);
+    return march->survival * density + march->rework;
 }
 
-/** The outlet cell: its centre has less than half a spacing to go, or has left. */
-static void march_outlet_cell(const setting_t *at, march_t *march) {
-    const belt_real_t gone = at->observer->gone;
-    const belt_real_t width = BELT_REAL(1) - gone;
-    const belt_real_t pace = pace_ahead(at, march, width);
-    const belt_real_t rest = belt_observer_rest_of_outlet(at->observer);
-    leaving_t leaving = {rest, BELT_REAL(0)};
-    if (gone < HALF) {
+/** p2 of what is left of the outlet cell: its centre has less than half a spacing to go, or none. */
+static belt_real_t outlet_cell_density(const setting_t *at, march_t *march, belt_real_t width,
+                                       belt_real_t pace) {
+    const belt_real_t to_go = HALF - at->observer->gone;
+    belt_real_t density = belt_observer_rest_of_outlet(at->observer);
+    if (to_go > BELT_REAL(0)) {
         belt_transfer_t transfer = {BELT_REAL(1), BELT_REAL(0)};
-        belt_fast_forward_last(&transfer, at->line, HALF - gone, pace, rest);
-        leaving.mean = transfer.survival * rest + transfer.rework;
+        belt_fast_forward_last(&transfer, at->line, to_go, pace, density);
+        density = transfer.survival * density + transfer.rework;
     }
     const factors_t factors = factors_of(at->line, width, pace);
-    carry(march, &factors, leaving.mean);
-    pass(at, march, width, pace, leaving);
+    carry(march, &factors, density);
+    return density;
 }
 
-/** Whole cells 1 ... node_count - 1; `before` gets the rework before the last of them. Returns the
- * open cell's ring index. */
-static uint32_t march_whole_cells(const setting_t *at, march_t *march, belt_real_t *before) {
-    const belt_line_t *line = at->line;
-    const uint32_t pairs = (line->node_count - 2u) / 2u;
-    belt_real_t place = BELT_REAL(1) - at->observer->gone;
-    uint32_t cell = belt_observer_next(line, at->observer->outlet);
-    if ((line->node_count & 1u) != 0u) {
-        march_single(at, march, cell, place + HALF, BELT_REAL(1));
-        place += BELT_REAL(1);
-        cell = belt_observer_next(line, cell);
+/** Mean and lead of two cells behind each other. */
+static leaving_t both(belt_real_t first, belt_real_t first_width, belt_real_t second,
+                      belt_real_t second_width) {
+    const belt_real_t share = second_width / (first_width + second_width);
+    const leaving_t leaving = {
+        first + share * (second - first),
+        HALF * share * (BELT_REAL(1) - share) * (first - second),
+    };
+    return leaving;
+}
+
+/** The outlet's end: the rest of the outlet cell, with the other one of its pair if that is still
+ * on the belt. Returns the ring index of the cell behind. */
+static uint32_t march_outlet(const setting_t *at, march_t *march) {
+    const belt_observer_t *observer = at->observer;
+    const belt_real_t width = BELT_REAL(1) - observer->gone;
+    const uint32_t next = belt_observer_next(at->line, observer->outlet);
+    if (observer->outlet_is_second) {
+        const belt_real_t pace = pace_ahead(at, march, width);
+        const leaving_t leaving = {outlet_cell_density(at, march, width, pace), BELT_REAL(0)};
+        pass(at, march, width, pace, leaving);
+        return next;
     }
-    cell = line->loss_is_uniform ? march_pairs(at, march, cell, pairs)
-                                 : march_pairs_forward(at, march, cell, pairs, place);
-    *before = march->rework;
-    place += (belt_real_t)(2u * pairs);
-    march_single(at, march, cell, place + HALF, BELT_REAL(1));
-    return belt_observer_next(line, cell);
+    const belt_real_t pace = pace_ahead(at, march, width + BELT_REAL(1));
+    const belt_real_t first = outlet_cell_density(at, march, width, pace);
+    const belt_real_t second =
+        end_density(at, march, observer->density[next], width, BELT_REAL(1), pace);
+    pass(at, march, width + BELT_REAL(1), pace, both(first, width, second, BELT_REAL(1)));
+    return belt_observer_next(at->line, next);
 }
 
-/** What (MF1) asks for at the inlet, out of the march's last line. `before` is the rework of the
- * material where the last whole cell begins, or where the pair before it has its middle. */
+/** The inlet's end: the open cell, with the whole one of its pair if there is one. */
+static void march_inlet(const setting_t *at, march_t *march, uint32_t cell, bool is_pair) {
+    const belt_observer_t *observer = at->observer;
+    const belt_real_t gone = observer->gone;
+    if (!is_pair) {
+        const belt_real_t pace = pace_ahead(at, march, gone);
+        const leaving_t leaving = {
+            end_density(at, march, observer->density[cell], BELT_REAL(0), gone, pace),
+            BELT_REAL(0)};
+        pass(at, march, gone, pace, leaving);
+        return;
+    }
+    const uint32_t open = belt_observer_next(at->line, cell);
+    const belt_real_t pace = pace_ahead(at, march, BELT_REAL(1) + gone);
+    const belt_real_t first = end_density(at, march, observer->density[cell], BELT_REAL(0),
+                                          BELT_REAL(1), pace);
+    const belt_real_t second =
+        end_density(at, march, observer->density[open], BELT_REAL(1), gone, pace);
+    pass(at, march, BELT_REAL(1) + gone, pace, both(first, BELT_REAL(1), second, gone));
+}
+
+/** What (MF1) asks for at the inlet, out of the march's last line. `before` is the rework at the
+ * last whole pair: for uniform loss where it begins, else in its middle. */
 static void conclude(const setting_t *at, march_t *march, belt_real_t before) {
     const belt_line_t *line = at->line;
     belt_prediction_t *p = at->prediction;
     const uint32_t last = march->count - 1u;
-    belt_real_t distance = BELT_REAL(1) + p->width[last];
+    belt_real_t distance = BELT_REAL(2) + p->width[last];
     if (!line->loss_is_uniform) {
         const belt_passed_t passed = passed_stretches(p, last);
         belt_transfer_t transfer =
@@ -267,7 +296,7 @@ static void conclude(const setting_t *at, march_t *march, belt_real_t before) {
                                p->outlet_density[last]);
         march->survival = transfer.survival;
         march->rework = transfer.rework;
-        distance += BELT_REAL(1);
+        distance -= BELT_REAL(1);
     }
     p->count = march->count;
     p->inlet_level = march->level;
@@ -280,6 +309,21 @@ static void conclude(const setting_t *at, march_t *march, belt_real_t before) {
     p->inlet_tail = march->tail;
 }
 
+static march_t start(const belt_line_t *line, const belt_present_t *present) {
+    march_t march;
+    march.level = present->level;
+    march.arrival = BELT_REAL(0);
+    march.pace = belt_line_slowness(line, present->congestion) * line->spacing;
+    march.tail = present->level;
+    march.place = BELT_REAL(0);
+    march.survival = BELT_REAL(1);
+    march.rework = BELT_REAL(0);
+    march.rework_slope = BELT_REAL(0);
+    march.count = 0;
+    march.tail_line = 0;
+    return march;
+}
+
 void belt_predictor_march(belt_prediction_t *prediction, const belt_line_t *line,
                           const belt_level_history_t *history, const belt_observer_t *observer,
                           const belt_present_t *present, belt_prediction_kind_t kind) {
@@ -287,17 +331,17 @@ void belt_predictor_march(belt_prediction_t *prediction, const belt_line_t *line
         (kind == BELT_HOLD_CONGESTION) ? BELT_REAL(0) : line->slowness_slope * line->spacing;
     const setting_t at = {line, history, observer, prediction, line->connectivity * line->spacing,
                           pace_slope};
-    march_t march = {0};
-    march.level = present->level;
-    march.pace = belt_line_slowness(line, present->congestion) * line->spacing;
-    march.survival = BELT_REAL(1);
+    march_t march = start(line, present);
     prediction->level[0] = march.level;
     prediction->arrival[0] = march.arrival;
 
-    belt_real_t rework_before = BELT_REAL(0);
-    march_outlet_cell(&at, &march);
-    const uint32_t open = march_whole_cells(&at, &march, &rework_before);
-    march_single(&at, &march, open, (belt_real_t)line->node_count - HALF * observer->gone,
-                 observer->gone);
-    conclude(&at, &march, rework_before);
+    /* Of the cells 0 ... node_count the outlet's end takes one or two, the inlet's end the rest. */
+    const uint32_t behind = line->node_count - (observer->outlet_is_second ? 0u : 1u);
+    const uint32_t pairs = (behind - 1u) / 2u;
+    belt_real_t before = BELT_REAL(0);
+    uint32_t cell = march_outlet(&at, &march);
+    cell = line->loss_is_uniform ? march_pairs(&at, &march, cell, pairs, &before)
+                                 : march_pairs_forward(&at, &march, cell, pairs, &before);
+    march_inlet(&at, &march, cell, behind > 2u * pairs + 1u);
+    conclude(&at, &march, before);
 }

@@ -11,8 +11,9 @@
  *     p3_x    = (p1 - level at sigma - speed_window)*slowness(p3)
  *     p2      = survival*density + rework picked up on the way
  *
- * Level, time and congestion take one midpoint step for two cells, survival and rework one for each:
- * second order, also where the density jumps between the cells. The window of p3 slides out of the
+ * Level, time and congestion take one midpoint step for a pair of cells, survival and rework one for
+ * each cell: second order, also where the density jumps between them. Pairs are pairs of material, so
+ * that the prediction changes smoothly while the belt moves on. The window of p3 slides out of the
  * recorded levels into the predicted ones once sigma - speed_window lies in the future.
  *
  * Cost: COST
@@ -24,9 +25,8 @@
 #include "level_history.h"
 #include "observer.h"
 
-/** Stretches that a march passes: the outlet cell, whole cells in pairs (the first one alone when
- * node_count is odd), the last whole cell, the open one. */
-#define BELT_STRETCH_CAPACITY (BELT_NODE_CAPACITY / 2 + 3)
+/** Stretches that a march passes: cells in pairs, at each end a pair or one cell. */
+#define BELT_STRETCH_CAPACITY (BELT_NODE_CAPACITY / 2 + 2)
 
 /** What the march found. Line 0 is the outlet now, line i + 1 the inlet end of stretch i, the last
  * line the inlet. Times are from now. */
