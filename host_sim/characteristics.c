@@ -47,9 +47,9 @@ static double newer_travel(const characteristics_t *self, size_t index) {
 
 static double density_in(const parcel_t *parcel, double end, double travel) {
     const double length = end - parcel->travel;
-    return (length > 0.0)
-               ? parcel->older + (parcel->newer - parcel->older) * (travel - parcel->travel) / length
-               : parcel->newer;
+    return (length > 0.0) ? parcel->older +
+                                (parcel->newer - parcel->older) * (travel - parcel->travel) / length
+                          : parcel->newer;
 }
 
 static void begin_parcel(characteristics_t *self, double density) {
@@ -157,8 +157,7 @@ static void advance(void *belt, plant_t *plant, double flux, bool fresh) {
     const double outlet = self->travel - line->belt_length;
     const double before = next_to_leave(self, outlet, reach) / reach;
     const double loss = profile_at(&line->loss_rate, 0.0, line->belt_length);
-    const double left =
-        before * (1.0 + 0.5 * dt * (line->rework_rate * line->belt_length - loss));
+    const double left = before * (1.0 + 0.5 * dt * (line->rework_rate * line->belt_length - loss));
 
     plant->account.lost += age_parcels(self, plant, reach, left);
     plant->account.reworked +=

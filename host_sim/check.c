@@ -4,11 +4,27 @@
 #include "equilibrium.h"
 #include "model.h"
 
+/** Says which of the set-points to come the controller would refuse; returns how many. */
+static int check_setpoints(const scenario_t *scenario, const belt_config_t *config, FILE *out) {
+    int refused = 0;
+    for (size_t i = 0; i < scenario->run.setpoint_count; ++i) {
+        belt_config_t changed = *config;
+        changed.level_setpoint = model_real(scenario->run.setpoint_levels[i]);
+        if (belt_config_check(&changed, NULL) != BELT_OK) {
+            fprintf(out, "run.setpoint_levels, the set-point at %.6g s:\n",
+                    scenario->run.setpoint_times[i]);
+            model_print_refusals(&changed, scenario->name, out);
+            ++refused;
+        }
+    }
+    return refused;
+}
+
 bool check_report(const scenario_t *scenario, FILE *out) {
     belt_config_t config;
     model_config(scenario, &config);
-    fprintf(out, "rules of the configuration:\n");
-    const int broken = model_print_rules(&config, false, out);
+    fprintf(out, "%s\nrules of the controller's configuration:\n", scenario->name);
+    const int broken = model_print_rules(&config, out) + check_setpoints(scenario, &config, out);
     if (broken > 0) {
         fprintf(out, "%d broken: the controller would refuse this scenario\n", broken);
         return false;
@@ -16,8 +32,9 @@ bool check_report(const scenario_t *scenario, FILE *out) {
     const line_t *line = &scenario->line;
     const equilibrium_t rest = equilibrium_of(line, scenario->law.level_setpoint);
     const double empty = line->processing_time * line->belt_length;
-    fprintf(out, "dead time: %.6g s empty, %.6g s at the set-point, %.6g s full (%.1f, %.1f, %.1f "
-                 "periods)\n",
+    fprintf(out,
+            "dead time: %.6g s empty, %.6g s at the set-point, %.6g s full (%.1f, %.1f, %.1f "
+            "periods)\n",
             empty, rest.dead_time, (double)belt_config_dead_time_max(&config),
             empty / scenario->controller.period, rest.dead_time / scenario->controller.period,
             (double)belt_config_dead_time_max(&config) / scenario->controller.period);
@@ -31,8 +48,9 @@ bool check_report(const scenario_t *scenario, FILE *out) {
             scenario->law.level_setpoint, rest.outlet_flux, rest.inlet_flux, rest.outlet_density,
             rest.inlet_density);
     if (scenario->controller.inlet_flux_max < rest.inlet_flux) {
-        fprintf(out, "note: controller.inlet_flux_max %.6g is below that inlet flux: the set-point "
-                     "cannot be held\n",
+        fprintf(out,
+                "note: controller.inlet_flux_max %.6g is below that inlet flux: the set-point "
+                "cannot be held\n",
                 scenario->controller.inlet_flux_max);
     }
     return true;

@@ -8,12 +8,12 @@
 #include "line.h"
 
 typedef struct {
-    double congestion;      /**< R* = Q* tau [parts s]. */
-    double dead_time;       /**< P D (1 + R*) [s]. */
-    double outlet_flux;     /**< Q* / (alpha service_time) [parts/s]. */
-    double inlet_flux;      /**< the constant flux that holds Q* [parts/s]. */
-    double inlet_density;   /**< [parts/m]. */
-    double outlet_density;  /**< [parts/m]. */
+    double congestion;     /**< R* = Q* tau [parts s]. */
+    double dead_time;      /**< P D (1 + R*) [s]. */
+    double outlet_flux;    /**< Q* / (alpha service_time) [parts/s]. */
+    double inlet_flux;     /**< the constant flux that holds Q* [parts/s]. */
+    double inlet_density;  /**< [parts/m]. */
+    double outlet_density; /**< [parts/m]. */
 } equilibrium_t;
 
 /** Integrates the stationary belt, speed*rho_x = C*rho - A*(D - x)*rho(0), from the outlet. */

@@ -24,12 +24,13 @@ typedef struct {
     double processing_time;  /**< P: time a metre takes on an uncongested line [s/m], > 0. */
     double speed_window;     /**< tau: how far back the level counts for the speed [s], > 0. */
     double congestion_scale; /**< congestion at which the speed is halved [parts s], > 0. */
-    double connectivity;     /**< alpha: share of the outlet flux that reaches the buffer, (0, 1]. */
+    double connectivity; /**< alpha: share of the outlet flux that reaches the buffer, (0, 1]. */
     double service_rate_max; /**< mu: greatest rate of service [parts/s], > 0. */
     double service_time;     /**< service is level/service_time below its greatest rate [s], > 0. */
     double level_capacity;   /**< Qmax: parts the buffer holds, > 0. */
-    double rework_rate;      /**< A: density put back at x for each unit leaving, A (D - x) [1/(m s)], >= 0. */
-    profile_t loss_rate;     /**< C(x): share of the density lost in unit time [1/s], >= 0. */
+    double
+        rework_rate; /**< A: density put back at x for each unit leaving, A (D - x) [1/(m s)], >= 0. */
+    profile_t loss_rate; /**< C(x): share of the density lost in unit time [1/s], >= 0. */
 } line_t;
 
 /** Value of a profile at `place` in [0, length], linear between its equally spaced values. */

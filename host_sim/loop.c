@@ -38,8 +38,8 @@ static bool create_plant(loop_t *loop) {
         scenario->initial.buffer_level,
         &scenario->initial.density,
     };
-    loop->scheme = (scenario->plant.scheme == SCHEME_UPWIND) ? &scheme_upwind
-                                                             : &scheme_characteristics;
+    loop->scheme =
+        (scenario->plant.scheme == SCHEME_UPWIND) ? &scheme_upwind : &scheme_characteristics;
     if (!plant_create(&loop->plant, &setup)) {
         return false;
     }
@@ -68,9 +68,8 @@ static void measure(loop_t *loop, size_t k, belt_measurement_t *measurement) {
     }
     if (scenario->controller.outlet_flux == OUTLET_MEASURED) {
         measurement->present |= BELT_HAS_OUTLET_FLUX;
-        measurement->outlet_flux =
-            model_real(line_speed(plant->setup.line, plant->congestion) *
-                       loop->scheme->outlet_density(loop->belt, plant));
+        measurement->outlet_flux = model_real(line_speed(plant->setup.line, plant->congestion) *
+                                              loop->scheme->outlet_density(loop->belt, plant));
     }
     if (scenario->controller.density == DENSITY_MEASURED) {
         measurement->present |= BELT_HAS_DENSITY;
@@ -103,8 +102,7 @@ static bool change_setpoint(loop_t *loop, size_t k, FILE *messages) {
         if (status != BELT_OK) {
             belt_config_t config = loop->controller.config;
             config.level_setpoint = model_real(level);
-            fprintf(messages, "run.setpoint_levels: the controller refuses %.9g:\n", level);
-            model_print_rules(&config, true, messages);
+            model_print_refusals(&config, scenario->name, messages);
             return false;
         }
         loop->open_loop_flux = equilibrium_of(&scenario->line, level).inlet_flux;
@@ -153,7 +151,8 @@ static bool row_is_sound(const loop_t *loop, const loop_row_t *row, FILE *messag
     const double error = fabs(plant_balance_error(plant, loop->scheme, loop->belt));
     const double parts = plant->parts_at_start + plant->account.fed + plant->account.reworked;
     const char *fault = NULL;
-    if (!(row->inlet_flux >= 0.0) || !(row->inlet_flux <= loop->scenario->controller.inlet_flux_max)) {
+    if (!(row->inlet_flux >= 0.0) ||
+        !(row->inlet_flux <= loop->scenario->controller.inlet_flux_max)) {
         fault = "the command left its limits";
     } else if (!(row->buffer_level >= -1e-9 * capacity) || !(row->buffer_level <= capacity)) {
         fault = "the plant's level left its limits: raise plant.substeps";
@@ -161,9 +160,10 @@ static bool row_is_sound(const loop_t *loop, const loop_row_t *row, FILE *messag
         fault = "the plant's parts do not balance: raise plant.substeps or plant.node_count";
     }
     if (fault != NULL) {
-        fprintf(messages, "self-check at %.9g s: %s (inlet_flux %.9g, buffer_level %.9g, balance "
-                          "error %.3g)\n",
-                row->time, fault, row->inlet_flux, row->buffer_level, error);
+        fprintf(messages,
+                "%s: self-check at %.9g s: %s (inlet_flux %.9g, buffer_level %.9g, balance "
+                "error %.3g)\n",
+                loop->scenario->name, row->time, fault, row->inlet_flux, row->buffer_level, error);
     }
     return fault == NULL;
 }
@@ -181,8 +181,9 @@ static loop_status_t run_periods(loop_t *loop, const loop_sink_t *sink, FILE *me
         measure(loop, k, &measurement);
         const belt_status_t status = belt_step(&loop->controller, &measurement, &command);
         if (status != BELT_OK) {
-            fprintf(messages, "self-check at period %zu: the controller says %s (error bits %#x)\n",
-                    k, belt_status_name(status), (unsigned)command.error_bits);
+            fprintf(
+                messages, "%s: self-check at period %zu: the controller says %s (error bits %#x)\n",
+                loop->scenario->name, k, belt_status_name(status), (unsigned)command.error_bits);
             return LOOP_SELF_CHECK;
         }
         const double flux = command_of(loop, &command);
@@ -214,7 +215,7 @@ loop_status_t loop_run(const scenario_t *scenario, const loop_sink_t *sink, FILE
     loop.scenario = scenario;
     model_config(scenario, &config);
     if (belt_init(&loop.controller, &config) != BELT_OK) {
-        model_print_rules(&config, true, messages);
+        model_print_refusals(&config, scenario->name, messages);
         return LOOP_CONFIG_REFUSED;
     }
     loop.open_loop_flux = equilibrium_of(&scenario->line, scenario->law.level_setpoint).inlet_flux;

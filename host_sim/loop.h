@@ -16,16 +16,16 @@
 
 /** One row of the trace: the plant at the start of a period, before the step, and the step's answer. */
 typedef struct {
-    double time;             /**< [s]. */
-    double buffer_level;     /**< plant's Q [parts]. */
-    double level_setpoint;   /**< Q* in force in this period [parts]. */
-    double inlet_flux;       /**< the command, held from this instant on [parts/s]. */
-    double outlet_flux;      /**< plant's phi [parts/s]. */
-    double congestion;       /**< plant's R [parts s]. */
-    double transport_speed;  /**< plant's omega(R) [m/s]. */
-    double predicted_level;  /**< p1(D): controller's, for material fed at `time` [parts]. */
-    double arrival_time;     /**< sigma(D): when that material leaves the belt, absolute [s]. */
-    double survival;         /**< K(D, D): its share that is not lost on the way, (0, 1]. */
+    double time;            /**< [s]. */
+    double buffer_level;    /**< plant's Q [parts]. */
+    double level_setpoint;  /**< Q* in force in this period [parts]. */
+    double inlet_flux;      /**< the command, held from this instant on [parts/s]. */
+    double outlet_flux;     /**< plant's phi [parts/s]. */
+    double congestion;      /**< plant's R [parts s]. */
+    double transport_speed; /**< plant's omega(R) [m/s]. */
+    double predicted_level; /**< p1(D): controller's, for material fed at `time` [parts]. */
+    double arrival_time;    /**< sigma(D): when that material leaves the belt, absolute [s]. */
+    double survival;        /**< K(D, D): its share that is not lost on the way, (0, 1]. */
 } loop_row_t;
 
 /** Receives rows in order of time; `density` holds `density_count` plant densities equally spaced
@@ -44,8 +44,8 @@ typedef struct {
 typedef enum {
     LOOP_DONE,
     LOOP_CONFIG_REFUSED, /**< a rule of the controller or plant is broken: one line per rule on `messages`. */
-    LOOP_STOPPED,        /**< the sink returned false. */
-    LOOP_SELF_CHECK,     /**< the plant or the controller left its own limits: said on `messages`. */
+    LOOP_STOPPED,    /**< the sink returned false. */
+    LOOP_SELF_CHECK, /**< the plant or the controller left its own limits: said on `messages`. */
     LOOP_NO_MEMORY
 } loop_status_t;
 

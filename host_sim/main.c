@@ -83,6 +83,7 @@ static int obey(const arguments_t *arguments) {
     if (!scenario_file_read(arguments->scenario, &arguments->settings, &scenario, stderr)) {
         return EXIT_REFUSED;
     }
+    scenario.name = arguments->scenario; /* outlives the path it was read from */
     if (arguments->command == COMMAND_CHECK) {
         const bool holds = check_report(&scenario, stdout);
         return exit_of_standard_output(holds ? EXIT_DONE : EXIT_REFUSED);

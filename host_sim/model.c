@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "model.h"
 
+#include <math.h>
+
 /** What a rule speaks of, as the scenario's reader knows it, and why there is such a rule. */
 typedef struct {
     belt_status_t code;
@@ -23,7 +25,8 @@ static const rule_text_t rule_texts[] = {
     {BELT_NODE_COUNT, "controller.node_count", "BELT_NODE_CAPACITY of this build"},
     {BELT_PERIOD, "controller.period", "a dimension"},
     {BELT_PERIOD_PER_NODE, "controller.period",
-     "an empty line moves at most one node spacing a period: processing_time*belt_length/node_count"},
+     "an empty line moves at most one node spacing a period: "
+     "processing_time*belt_length/node_count"},
     {BELT_WINDOW_SHORT, "line.speed_window", "at least one period"},
     {BELT_WINDOW_LONG, "speed_window/period + 2", "BELT_WINDOW_CAPACITY of this build"},
     {BELT_DEAD_TIME, "longest dead time/period", "arrival times keep their resolution"},
@@ -75,45 +78,61 @@ void model_config(const scenario_t *scenario, belt_config_t *config) {
     }
     config->level_setpoint = model_real(scenario->law.level_setpoint);
     config->nominal_flux_max = model_real(scenario->law.nominal_flux_max);
-    config->slope_kind =
-        scenario->law.slope_is_absolute ? BELT_SLOPE_ABSOLUTE : BELT_SLOPE_MARGIN;
+    config->slope_kind = scenario->law.slope_is_absolute ? BELT_SLOPE_ABSOLUTE : BELT_SLOPE_MARGIN;
     config->slope = model_real(scenario->law.slope);
     config->node_count = model_count(scenario->controller.node_count);
     config->period = model_real(scenario->controller.period);
     config->inlet_flux_max = model_real(scenario->controller.inlet_flux_max);
-    config->prediction = (scenario->controller.law == LAW_FROZEN) ? BELT_HOLD_CONGESTION
-                                                                  : BELT_PREDICT_CONGESTION;
+    config->prediction =
+        (scenario->controller.law == LAW_FROZEN) ? BELT_HOLD_CONGESTION : BELT_PREDICT_CONGESTION;
 }
 
-static void print_rule(const rule_text_t *text, const belt_rule_t *rule, bool holds, FILE *out) {
-    const double value = (double)rule->value;
-    const double below = value - (double)rule->lower;
-    const double above = (double)rule->upper - value;
-    fprintf(out, "%s %s: %s = %.9g", holds ? "holds  " : "refused", belt_status_name(text->code),
-            text->value, value);
-    if (rule->lower > -BELT_REAL_MAX) {
-        fprintf(out, ", must be %s %.9g", rule->lower_open ? "above" : "at least",
-                (double)rule->lower);
-    }
-    if (rule->upper < BELT_REAL_MAX) {
-        fprintf(out, ", must be %s %.9g", rule->upper_open ? "below" : "at most",
-                (double)rule->upper);
-    }
-    if (holds) {
-        fprintf(out, ", margin %.3g", (above < below) ? above : below);
-    }
-    fprintf(out, " (%s)\n", text->reason);
+static bool has_lower(const belt_rule_t *rule) {
+    return rule->lower > -BELT_REAL_MAX;
 }
 
-int model_print_rules(const belt_config_t *config, bool broken_only, FILE *out) {
+static bool has_upper(const belt_rule_t *rule) {
+    return rule->upper < BELT_REAL_MAX;
+}
+
+int model_print_rules(const belt_config_t *config, FILE *out) {
     int broken = 0;
     for (size_t i = 0; i < sizeof rule_texts / sizeof rule_texts[0]; ++i) {
-        const belt_rule_t rule = belt_config_rule(config, rule_texts[i].code);
+        const rule_text_t *text = &rule_texts[i];
+        const belt_rule_t rule = belt_config_rule(config, text->code);
         const bool holds = belt_rule_holds(&rule);
+        const double value = (double)rule.value;
+        const double below = has_lower(&rule) ? value - (double)rule.lower : (double)INFINITY;
+        const double above = has_upper(&rule) ? (double)rule.upper - value : (double)INFINITY;
         broken += holds ? 0 : 1;
-        if (!holds || !broken_only) {
-            print_rule(&rule_texts[i], &rule, holds, out);
-        }
+        fprintf(out, "  %-6s %-21s margin %-9.3g %s = %.6g in %c%.6g, %.6g%c: %s\n",
+                holds ? "holds" : "BROKEN", belt_status_name(text->code), fmin(below, above),
+                text->value, value, rule.lower_open ? '(' : '[',
+                has_lower(&rule) ? (double)rule.lower : -(double)INFINITY,
+                has_upper(&rule) ? (double)rule.upper : (double)INFINITY,
+                rule.upper_open ? ')' : ']', text->reason);
     }
     return broken;
+}
+
+void model_print_refusals(const belt_config_t *config, const char *name, FILE *messages) {
+    for (size_t i = 0; i < sizeof rule_texts / sizeof rule_texts[0]; ++i) {
+        const rule_text_t *text = &rule_texts[i];
+        const belt_rule_t rule = belt_config_rule(config, text->code);
+        if (belt_rule_holds(&rule)) {
+            continue;
+        }
+        fprintf(messages, "%s: %s = %.9g", name, text->value, (double)rule.value);
+        const char *and = ", must be";
+        if (has_lower(&rule)) {
+            fprintf(messages, "%s %s %.9g", and, rule.lower_open ? "above" : "at least",
+                    (double)rule.lower);
+            and= " and";
+        }
+        if (has_upper(&rule)) {
+            fprintf(messages, "%s %s %.9g", and, rule.upper_open ? "below" : "at most",
+                    (double)rule.upper);
+        }
+        fprintf(messages, " (%s: %s)\n", belt_status_name(text->code), text->reason);
+    }
 }

@@ -17,8 +17,11 @@ void model_config(const scenario_t *scenario, belt_config_t *config);
 /** A double in the controller's numbers; what is beyond them becomes their greatest. */
 belt_real_t model_real(double value);
 
-/** Prints the rules, one a line with value and limits: all of them, or the broken ones alone.
- * Returns how many are broken. */
-int model_print_rules(const belt_config_t *config, bool broken_only, FILE *out);
+/** Prints every rule, one a line: its value, its limits and how far the nearer one is. Returns how
+ * many are broken. */
+int model_print_rules(const belt_config_t *config, FILE *out);
+
+/** Prints the broken rules, one a line with value and limits, `name` before each. */
+void model_print_refusals(const belt_config_t *config, const char *name, FILE *messages);
 
 #endif

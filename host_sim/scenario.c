@@ -217,6 +217,7 @@ bool scenario_read_with(const char *text, size_t length, const char *name,
         return false;
     }
     *scenario = draft.scenario;
+    scenario->name = name;
     return true;
 }
 

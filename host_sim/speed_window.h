@@ -15,10 +15,10 @@ typedef struct {
     double *level; /**< ring of levels [parts], `length` of them. */
     size_t length; /**< whole + 2. */
     size_t newest;
-    size_t whole;  /**< whole steps in the window. */
-    double part;   /**< rest of it [steps], [0, 1). */
-    double step;   /**< the plant step [s]. */
-    double sum;    /**< of the whole + 1 newest levels [parts]. */
+    size_t whole; /**< whole steps in the window. */
+    double part;  /**< rest of it [steps], [0, 1). */
+    double step;  /**< the plant step [s]. */
+    double sum;   /**< of the whole + 1 newest levels [parts]. */
 } speed_window_t;
 
 /** Prepares a window of `window` seconds in steps of `step` seconds, filled with one level. False

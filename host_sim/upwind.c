@@ -10,8 +10,9 @@
 typedef struct {
     size_t cells;
     double dx;
-    double *loss;    /**< C at the nodes [1/s]. */
-    double density[]; /**< at the nodes, outlet first [parts/m]: cells + 1, and the losses behind. */
+    double *loss; /**< C at the nodes [1/s]. */
+    double
+        density[]; /**< at the nodes, outlet first [parts/m]: cells + 1, and the losses behind. */
 } upwind_t;
 
 static bool create(void **belt, const plant_t *plant) {

@@ -98,9 +98,9 @@ belt_status_t belt_step(belt_controller_t *controller, const belt_measurement_t 
     belt_predictor_march(&controller->prediction, &controller->line, &controller->history,
                          &controller->observer, &controller->present,
                          controller->config.prediction);
-    const belt_real_t flux = belt_command_solve(&controller->prediction, &controller->line,
-                                                &controller->history, &controller->law,
-                                                &controller->present);
+    const belt_real_t flux =
+        belt_command_solve(&controller->prediction, &controller->line, &controller->history,
+                           &controller->law, &controller->present);
 
     controller->command.inlet_flux = belt_command_limit(flux, controller->config.inlet_flux_max);
     controller->command.mode = BELT_MODE_AUTOMATIC;

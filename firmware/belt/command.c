@@ -16,27 +16,25 @@ belt_real_t belt_command_solve(const belt_prediction_t *prediction, const belt_l
     /* Feeding: the middle of the hold. */
     const belt_real_t half_hold = HALF * history->period;
     const belt_real_t present_tail = belt_level_history_at(history, history->window);
-    const belt_real_t feeding = belt_line_slowness(
-        line, present->congestion + half_hold * (present->level - present_tail));
+    const belt_real_t feeding =
+        belt_line_slowness(line, present->congestion + half_hold * (present->level - present_tail));
 
     /* Arrival: half a hold of travel behind the last material fed, at the pace of then. */
-    const belt_real_t gap = half_hold * prediction->inlet_slowness /
-                            belt_line_slowness(line, present->congestion);
+    const belt_real_t gap =
+        half_hold * prediction->inlet_slowness / belt_line_slowness(line, present->congestion);
     const belt_real_t inflow =
         line->connectivity * belt_nominal_law_flux(law, prediction->inlet_level);
     const belt_real_t level =
-        prediction->inlet_level +
-        gap * (inflow - belt_line_service(line, prediction->inlet_level));
+        prediction->inlet_level + gap * (inflow - belt_line_service(line, prediction->inlet_level));
     const belt_real_t arriving =
-        prediction->inlet_slowness + line->slowness_slope * gap *
-                                         (prediction->inlet_level - prediction->inlet_tail);
+        prediction->inlet_slowness +
+        line->slowness_slope * gap * (prediction->inlet_level - prediction->inlet_tail);
     const belt_real_t survival =
         prediction->inlet_survival * (BELT_REAL(1) - line->loss_mean * (gap - half_hold));
 
     const belt_real_t travel =
         half_hold / (line->spacing * belt_line_slowness(line, present->congestion));
-    const belt_real_t rework =
-        prediction->inlet_rework + travel * prediction->inlet_rework_slope;
+    const belt_real_t rework = prediction->inlet_rework + travel * prediction->inlet_rework_slope;
 
     const belt_real_t wanted = arriving * belt_nominal_law_flux(law, level);
     return (wanted - rework) / (survival * feeding);

@@ -24,10 +24,11 @@ typedef enum {
 } belt_mode_t;
 
 typedef struct {
-    belt_real_t inlet_flux; /**< U: flux to feed until the next step [parts/s], 0 ... inlet_flux_max,
+    belt_real_t
+        inlet_flux;      /**< U: flux to feed until the next step [parts/s], 0 ... inlet_flux_max,
                                  always finite. */
-    belt_mode_t mode;       /**< who is in command. */
-    uint32_t error_bits;    /**< BELT_ERROR_... of measurement.h: inputs not trusted in this step. */
+    belt_mode_t mode;    /**< who is in command. */
+    uint32_t error_bits; /**< BELT_ERROR_... of measurement.h: inputs not trusted in this step. */
 } belt_command_t;
 
 /** Flux within [0, limit]; anything that is no number is 0 [parts/s]. */

@@ -36,9 +36,9 @@ belt_real_t belt_config_setpoint_flux(const belt_config_t *config) {
 
 belt_real_t belt_config_slope_min(const belt_config_t *config) {
     const belt_real_t flux = belt_config_setpoint_flux(config);
-    const belt_real_t below = (config->nominal_flux_max - flux) / config->level_setpoint;
-    const belt_real_t above = flux / (config->level_capacity - config->level_setpoint);
-    return (below > above) ? below : above;
+    const belt_real_t rising = (config->nominal_flux_max - flux) / config->level_setpoint;
+    const belt_real_t falling = flux / (config->level_capacity - config->level_setpoint);
+    return (rising > falling) ? rising : falling;
 }
 
 belt_real_t belt_config_slope(const belt_config_t *config) {
@@ -49,8 +49,7 @@ belt_real_t belt_config_slope(const belt_config_t *config) {
 
 /** 1 + tau Qmax/congestion_scale: how many times slower the fullest line is than the empty one. */
 static belt_real_t slowdown_max(const belt_config_t *config) {
-    return BELT_REAL(1) +
-           config->speed_window * config->level_capacity / config->congestion_scale;
+    return BELT_REAL(1) + config->speed_window * config->level_capacity / config->congestion_scale;
 }
 
 belt_real_t belt_config_dead_time_max(const belt_config_t *config) {
@@ -82,12 +81,12 @@ static belt_rule_t line_rule(const belt_config_t *config, belt_status_t code) {
         case BELT_PROCESSING_TIME: return dimension(config->processing_time);
         case BELT_SPEED_WINDOW: return dimension(config->speed_window);
         case BELT_CONGESTION_SCALE: return dimension(config->congestion_scale);
-        case BELT_CONNECTIVITY: return closed(BELT_DIMENSION_MIN, config->connectivity, BELT_REAL(1));
+        case BELT_CONNECTIVITY:
+            return closed(BELT_DIMENSION_MIN, config->connectivity, BELT_REAL(1));
         case BELT_SERVICE_RATE_MAX: return dimension(config->service_rate_max);
         case BELT_SERVICE_TIME: return dimension(config->service_time);
         case BELT_LEVEL_CAPACITY: return dimension(config->level_capacity);
-        case BELT_REWORK_RATE:
-            return closed(BELT_REAL(0), config->rework_rate, BELT_DIMENSION_MAX);
+        case BELT_REWORK_RATE: return closed(BELT_REAL(0), config->rework_rate, BELT_DIMENSION_MAX);
         case BELT_LOSS_COUNT:
             return closed(BELT_REAL(1), BELT_REAL(config->loss_count),
                           BELT_REAL(BELT_LOSS_CAPACITY));
@@ -103,8 +102,7 @@ static belt_rule_t discretisation_rule(const belt_config_t *config, belt_status_
         case BELT_PERIOD: return dimension(config->period);
         case BELT_PERIOD_PER_NODE:
             return at_most(config->period, config->processing_time * config->belt_length / nodes);
-        case BELT_WINDOW_SHORT:
-            return closed(config->period, config->speed_window, BELT_REAL_MAX);
+        case BELT_WINDOW_SHORT: return closed(config->period, config->speed_window, BELT_REAL_MAX);
         case BELT_WINDOW_LONG:
             return at_most(config->speed_window / config->period + BELT_REAL(2),
                            BELT_REAL(BELT_WINDOW_CAPACITY));
@@ -125,10 +123,10 @@ static belt_rule_t discretisation_rule(const belt_config_t *config, belt_status_
 static belt_rule_t law_rule(const belt_config_t *config, belt_status_t code) {
     switch (code) {
         case BELT_NOMINAL_FLUX_MAX:
-            return closed(BELT_DIMENSION_MIN, config->nominal_flux_max,
-                          least(config->level_capacity / config->service_time,
-                                config->service_rate_max) /
-                              config->connectivity);
+            return closed(
+                BELT_DIMENSION_MIN, config->nominal_flux_max,
+                least(config->level_capacity / config->service_time, config->service_rate_max) /
+                    config->connectivity);
         case BELT_LEVEL_SETPOINT: {
             belt_rule_t rule = above(BELT_REAL(0), config->level_setpoint);
             rule.upper = config->connectivity * config->nominal_flux_max * config->service_time;

@@ -48,14 +48,14 @@ typedef struct {
     belt_real_t connectivity;     /**< alpha: share of the outlet flux that reaches the buffer,
                                        0 < alpha <= 1. */
     belt_real_t service_rate_max; /**< mu: greatest rate of service [parts/s]. */
-    belt_real_t service_time;     /**< service is level/service_time up to mu [s]; 1 in the paper. */
-    belt_real_t level_capacity;   /**< Qmax: parts that the buffer holds. */
-    belt_real_t rework_rate;      /**< A: of the density v leaving, A (D - x) v comes back at x each
+    belt_real_t service_time;   /**< service is level/service_time up to mu [s]; 1 in the paper. */
+    belt_real_t level_capacity; /**< Qmax: parts that the buffer holds. */
+    belt_real_t rework_rate;    /**< A: of the density v leaving, A (D - x) v comes back at x each
                                        second [1/(m s)], 0 ... BELT_DIMENSION_MAX. */
     belt_real_t loss_rate[BELT_LOSS_CAPACITY]; /**< C(x): share lost in a second [1/s], 0 ...
                                        BELT_DIMENSION_MAX; equally spaced from outlet (first) to
                                        inlet (last), linear between. */
-    uint16_t loss_count; /**< values in loss_rate; 1: the loss is uniform. */
+    uint16_t loss_count;                       /**< values in loss_rate; 1: the loss is uniform. */
 
     /* The law. */
     belt_real_t level_setpoint;   /**< Q*: 0 < Q* < alpha Bmax service_time [parts]. */
@@ -65,8 +65,8 @@ typedef struct {
     belt_real_t slope;            /**< S, or S - Smin [1/s]; S > Smin and alpha S period <= 1/2. */
 
     /* The controller. */
-    uint16_t node_count;        /**< cells along the belt, 4 ... BELT_NODE_CAPACITY; 20 is plenty. */
-    belt_real_t period;         /**< time between steps [s]; <= P D/node_count. */
+    uint16_t node_count; /**< cells along the belt, 4 ... BELT_NODE_CAPACITY; 20 is plenty. */
+    belt_real_t period;  /**< time between steps [s]; <= P D/node_count. */
     belt_real_t inlet_flux_max; /**< greatest command [parts/s], > 0; BELT_NO_FLUX_LIMIT if none. */
     belt_prediction_kind_t prediction; /**< BELT_PREDICT_CONGESTION, but for comparisons. */
 } belt_config_t;

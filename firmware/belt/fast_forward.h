@@ -5,7 +5,7 @@
  *
  * Where the loss is uniform all material ages alike, and the march carries survival and rework along
  * with a few operations a stretch. Here each piece is moved past every stretch that leaves before it:
- * about 20 instructions a pair, node_count^2/8 pairs a march.
+ * about 25 instructions for each two stretches, node_count^2/8 of those a march.
  */
 #ifndef BELT_FAST_FORWARD_H
 #define BELT_FAST_FORWARD_H

@@ -27,8 +27,8 @@ belt_gains_t belt_gains_solve(const belt_config_t *config) {
     const belt_real_t reach_below = config->level_setpoint;
     const belt_real_t reach_above = config->level_capacity - config->level_setpoint;
     belt_gains_t gains;
-    gains.below = belt_gains_root(slope * reach_below / (config->nominal_flux_max - flux)) /
-                  reach_below;
+    gains.below =
+        belt_gains_root(slope * reach_below / (config->nominal_flux_max - flux)) / reach_below;
     gains.above = belt_gains_root(slope * reach_above / flux) / reach_above;
     return gains;
 }

@@ -31,7 +31,8 @@ void belt_level_history_fill(belt_level_history_t *history, belt_real_t level) {
 
 void belt_level_history_push(belt_level_history_t *history, belt_real_t level) {
     const belt_quanta_t quanta = in_quanta(history, level);
-    history->window_sum += quanta - history->level[belt_level_history_index(history, history->whole)];
+    history->window_sum +=
+        quanta - history->level[belt_level_history_index(history, history->whole)];
     history->newest = history->newest + 1u;
     if (history->newest >= history->length) {
         history->newest = 0;
@@ -46,8 +47,7 @@ belt_real_t belt_level_history_congestion(const belt_level_history_t *history) {
         history->level[belt_level_history_index(history, history->whole + 1u)];
     const belt_real_t trapezoids =
         (belt_real_t)history->window_sum - BELT_REAL(0.5) * (belt_real_t)(first + last);
-    const belt_real_t rest =
-        history->part * ((belt_real_t)last +
-                         BELT_REAL(0.5) * history->part * (belt_real_t)(beyond - last));
+    const belt_real_t rest = history->part * ((belt_real_t)last + BELT_REAL(0.5) * history->part *
+                                                                      (belt_real_t)(beyond - last));
     return (trapezoids + rest) * (history->period * history->quantum);
 }

@@ -18,21 +18,21 @@
 /** Numbers derived from the configuration, once. Lengths are counted in node spacings where the name
  * says `spacing`: material coordinates then are cell numbers. */
 typedef struct {
-    belt_real_t spacing;             /**< D/node_count [m]. */
-    belt_real_t slowness_empty;      /**< P: slowness of the empty line [s/m]. */
-    belt_real_t slowness_slope;      /**< P/congestion_scale: slowness per congestion [1/(m parts)]. */
-    belt_real_t service_rate;        /**< 1/service_time [1/s]. */
-    belt_real_t service_rate_max;    /**< mu [parts/s]. */
-    belt_real_t connectivity;        /**< alpha [-]. */
-    belt_real_t level_capacity;      /**< Qmax [parts]. */
-    belt_real_t rework_at_outlet;    /**< A*D: rework per density leaving, at the outlet [1/s]. */
-    belt_real_t rework_per_spacing;  /**< A*D/node_count: how much less of it each spacing on. */
-    belt_real_t loss_mean;           /**< mean of C(x) along the belt [1/s]. */
+    belt_real_t spacing;          /**< D/node_count [m]. */
+    belt_real_t slowness_empty;   /**< P: slowness of the empty line [s/m]. */
+    belt_real_t slowness_slope;   /**< P/congestion_scale: slowness per congestion [1/(m parts)]. */
+    belt_real_t service_rate;     /**< 1/service_time [1/s]. */
+    belt_real_t service_rate_max; /**< mu [parts/s]. */
+    belt_real_t connectivity;     /**< alpha [-]. */
+    belt_real_t level_capacity;   /**< Qmax [parts]. */
+    belt_real_t rework_at_outlet; /**< A*D: rework per density leaving, at the outlet [1/s]. */
+    belt_real_t rework_per_spacing; /**< A*D/node_count: how much less of it each spacing on. */
+    belt_real_t loss_mean;          /**< mean of C(x) along the belt [1/s]. */
     belt_real_t loss[BELT_NODE_CAPACITY + 1]; /**< mean of C(x) over each spacing, outlet first; the
                                           last stands twice [1/s]. */
     belt_real_t loss_sum[BELT_NODE_CAPACITY + 1]; /**< their sum up to each node [1/s]. */
     uint32_t node_count;
-    bool loss_is_uniform;            /**< one C for the whole belt. */
+    bool loss_is_uniform; /**< one C for the whole belt. */
 } belt_line_t;
 
 /** Derives the line from a configuration that belt_config_check() has passed. */

@@ -4,9 +4,9 @@
 belt_bounds_t belt_measurement_bounds(const belt_config_t *config) {
     belt_bounds_t bounds;
     bounds.flux = BELT_REAL(1000) * config->nominal_flux_max;
-    bounds.density = bounds.flux * config->processing_time *
-                     (BELT_REAL(1) + config->speed_window * config->level_capacity /
-                                         config->congestion_scale);
+    bounds.density =
+        bounds.flux * config->processing_time *
+        (BELT_REAL(1) + config->speed_window * config->level_capacity / config->congestion_scale);
     return bounds;
 }
 

@@ -17,37 +17,39 @@
 #define BELT_HAS_DENSITY 8u
 
 /* Why an input was not trusted in this step. */
-#define BELT_ERROR_LEVEL_MISSING 1u        /**< no level: the last good one stands in. */
-#define BELT_ERROR_LEVEL_INVALID 2u        /**< NaN or infinite: the last good one stands in. */
-#define BELT_ERROR_LEVEL_RANGE 4u          /**< outside [0, level_capacity]: clamped. */
-#define BELT_ERROR_OUTLET_FLUX_INVALID 8u  /**< no number, or senseless: the observer's stands in. */
+#define BELT_ERROR_LEVEL_MISSING 1u       /**< no level: the last good one stands in. */
+#define BELT_ERROR_LEVEL_INVALID 2u       /**< NaN or infinite: the last good one stands in. */
+#define BELT_ERROR_LEVEL_RANGE 4u         /**< outside [0, level_capacity]: clamped. */
+#define BELT_ERROR_OUTLET_FLUX_INVALID 8u /**< no number, or senseless: the observer's stands in. */
 #define BELT_ERROR_APPLIED_FLUX_INVALID 16u /**< no number, or senseless: the command stands in. */
-#define BELT_ERROR_DENSITY_INVALID 32u     /**< a value no number, or senseless: the observer's
+#define BELT_ERROR_DENSITY_INVALID                                                                 \
+    32u /**< a value no number, or senseless: the observer's
                                                 profile stands in. */
-#define BELT_ERROR_DENSITY_RANGE 64u       /**< a density below 0: the observer's profile stands
+#define BELT_ERROR_DENSITY_RANGE                                                                   \
+    64u /**< a density below 0: the observer's profile stands
                                                 in. */
 
 typedef struct {
-    uint32_t present;         /**< BELT_HAS_... bits. */
-    belt_real_t level;        /**< Q: level of the buffer [parts]. */
-    belt_real_t outlet_flux;  /**< phi: flux leaving the belt [parts/s]. */
-    belt_real_t applied_flux; /**< flux really fed since the last step [parts/s]. */
+    uint32_t present;           /**< BELT_HAS_... bits. */
+    belt_real_t level;          /**< Q: level of the buffer [parts]. */
+    belt_real_t outlet_flux;    /**< phi: flux leaving the belt [parts/s]. */
+    belt_real_t applied_flux;   /**< flux really fed since the last step [parts/s]. */
     const belt_real_t *density; /**< rho: node_count + 1 densities, equally spaced, outlet to inlet
                                      [parts/m]; read in the step only. */
-    uint32_t sample_count;    /**< goes up with each new sample of the level. Carried for later. */
-    uint32_t elapsed_ticks;   /**< control periods since the last step, 1 on time. Carried for
+    uint32_t sample_count;  /**< goes up with each new sample of the level. Carried for later. */
+    uint32_t elapsed_ticks; /**< control periods since the last step, 1 on time. Carried for
                                    later: every step counts as one period. */
 } belt_measurement_t;
 
 /** What passed. */
 typedef struct {
-    belt_real_t level;        /**< in [0, level_capacity] [parts]; the last good one if none came. */
-    belt_real_t outlet_flux;  /**< [parts/s], when has_outlet_flux. */
+    belt_real_t level;       /**< in [0, level_capacity] [parts]; the last good one if none came. */
+    belt_real_t outlet_flux; /**< [parts/s], when has_outlet_flux. */
     belt_real_t applied_flux; /**< [parts/s]; the last command if none came. */
     bool level_is_new;        /**< a level of this period was trusted. */
     bool has_outlet_flux;
     bool has_density;
-    uint32_t error_bits;      /**< BELT_ERROR_... */
+    uint32_t error_bits; /**< BELT_ERROR_... */
 } belt_trusted_t;
 
 /** Bounds no sound line can pass; beyond them an input is senseless. */

@@ -36,8 +36,7 @@ void belt_observer_assume(belt_observer_t *observer, const belt_line_t *line,
 
 /** Density on the outlet side of a cell's cut. */
 static belt_real_t outlet_side(const belt_observer_t *observer, uint32_t cell) {
-    return observer->density[cell] -
-           observer->step[cell] * (BELT_REAL(1) - observer->cut[cell]);
+    return observer->density[cell] - observer->step[cell] * (BELT_REAL(1) - observer->cut[cell]);
 }
 
 /** Integral of a cell's density over its first `share`, in units of a cell. */
@@ -143,8 +142,7 @@ static void age_cells(belt_observer_t *observer, const belt_line_t *line,
         source * line->rework_per_spacing,
     };
     observer->density[observer->outlet] =
-        observer->density[observer->outlet] *
-            belt_line_survival(line->loss[0] * ageing.time_here) +
+        observer->density[observer->outlet] * belt_line_survival(line->loss[0] * ageing.time_here) +
         line->rework_at_outlet * observer->outlet_density * ageing.time_here;
     if (line->loss_is_uniform) {
         age_uniform(observer, ageing);
@@ -188,9 +186,9 @@ static void feed(belt_observer_t *observer, const belt_line_t *line, uint32_t op
 static void close_cell(belt_observer_t *observer, const belt_line_t *line, uint32_t open,
                        belt_real_t time_since) {
     const belt_real_t cut = observer->cut[open];
-    observer->step[open] = (cut > BELT_REAL(0)) ? (observer->density[open] - observer->early) /
-                                                      (BELT_REAL(1) - cut)
-                                                : BELT_REAL(0);
+    observer->step[open] = (cut > BELT_REAL(0))
+                               ? (observer->density[open] - observer->early) / (BELT_REAL(1) - cut)
+                               : BELT_REAL(0);
     const belt_real_t loss = line->loss[line->node_count - 1] * time_since;
     observer->density[open] *= belt_line_survival(loss);
 
@@ -207,14 +205,12 @@ static void close_cell(belt_observer_t *observer, const belt_line_t *line, uint3
 void belt_observer_advance(belt_observer_t *observer, const belt_line_t *line,
                            const belt_passage_t *passage) {
     const belt_real_t pace = passage->duration / passage->travel;
-    observer->outlet_density =
-        passage->left_is_measured
-            ? passage->left_density
-            : leaving_density(observer, line, passage->travel, pace);
+    observer->outlet_density = passage->left_is_measured
+                                   ? passage->left_density
+                                   : leaving_density(observer, line, passage->travel, pace);
     age_cells(observer, line, passage, pace);
 
-    const uint32_t open =
-        (observer->outlet == 0u) ? line->node_count : observer->outlet - 1u;
+    const uint32_t open = (observer->outlet == 0u) ? line->node_count : observer->outlet - 1u;
     const belt_real_t reach = observer->gone + passage->travel;
     if (reach < BELT_REAL(1)) {
         feed(observer, line, open, observer->gone, reach, passage->fed_density, pace);

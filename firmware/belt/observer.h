@@ -16,7 +16,7 @@
  * cut and the step there: inside the belt only the mean counts (to second order), but while the
  * cell leaves the belt the outlet sees first one side of the cut and then the other.
  *
- * Cost: about 10 instructions a cell and period. Memory: three numbers a cell.
+ * Cost: about 20 instructions a cell and period, some 180 for the ends. Memory: three numbers a cell.
  */
 #ifndef BELT_OBSERVER_H
 #define BELT_OBSERVER_H
@@ -29,15 +29,15 @@ typedef struct {
     belt_real_t density[BELT_CELL_CAPACITY]; /**< ring: mean density of each cell [parts/m]. */
     belt_real_t step[BELT_CELL_CAPACITY];    /**< density inlet-side less outlet-side of the cut. */
     belt_real_t cut[BELT_CELL_CAPACITY];     /**< share of the cell on the outlet side, [0, 1). */
-    uint32_t outlet;             /**< ring index of the outlet cell; the open cell stands before it. */
-    belt_real_t gone;            /**< share of the outlet cell that has left, of the open cell that
+    uint32_t outlet;       /**< ring index of the outlet cell; the open cell stands before it. */
+    belt_real_t gone;      /**< share of the outlet cell that has left, of the open cell that
                                       has been fed, [0, 1). */
-    bool outlet_is_second;       /**< the march takes cells in pairs that stay pairs on their way: the
+    bool outlet_is_second; /**< the march takes cells in pairs that stay pairs on their way: the
                                       outlet cell is the inlet-side one of its pair. */
-    belt_real_t outlet_density;  /**< mean density that left in the last period [parts/m]. */
-    belt_real_t fed_density;     /**< density fed in the last period [parts/m]. */
-    belt_real_t early;           /**< open cell: mean density on the outlet side of its cut. */
-    belt_real_t cut_weight;      /**< open cell: how much its cut tells apart; the best so far. */
+    belt_real_t outlet_density; /**< mean density that left in the last period [parts/m]. */
+    belt_real_t fed_density;    /**< density fed in the last period [parts/m]. */
+    belt_real_t early;          /**< open cell: mean density on the outlet side of its cut. */
+    belt_real_t cut_weight;     /**< open cell: how much its cut tells apart; the best so far. */
 } belt_observer_t;
 
 /** What happened to the belt in one period. */

@@ -91,18 +91,18 @@ static inline void pass(const setting_t *at, march_t *march, belt_real_t width, 
  *     rework_slope' = A*spacing*p2 - C*rework_slope
  * All of it is linear, so one cell's midpoint step comes down to six factors. */
 typedef struct {
-    belt_real_t kept;        /**< what survives the cell. */
-    belt_real_t leaving;     /**< outlet density per survival*density + rework at the near line... */
-    belt_real_t slope;       /**< ...less this much of the slope. */
-    belt_real_t rework;      /**< rework gained per outlet density. */
-    belt_real_t slope_lost;  /**< rework lost per slope. */
-    belt_real_t slope_gain;  /**< slope gained per outlet density. */
+    belt_real_t kept;       /**< what survives the cell. */
+    belt_real_t leaving;    /**< outlet density per survival*density + rework at the near line... */
+    belt_real_t slope;      /**< ...less this much of the slope. */
+    belt_real_t rework;     /**< rework gained per outlet density. */
+    belt_real_t slope_lost; /**< rework lost per slope. */
+    belt_real_t slope_gain; /**< slope gained per outlet density. */
 } factors_t;
 
 static inline factors_t factors_of(const belt_line_t *line, belt_real_t width, belt_real_t pace) {
     const belt_real_t dwell = width * pace;
     const belt_real_t loss = HALF * line->loss_mean * dwell;
-    const belt_real_t kept = belt_line_survival(loss);         /* half a cell */
+    const belt_real_t kept = belt_line_survival(loss);           /* half a cell */
     const belt_real_t kept_halfway = BELT_REAL(1) - HALF * loss; /* a quarter */
     const belt_real_t rework = line->rework_at_outlet * dwell;
     const belt_real_t slope = line->rework_per_spacing * dwell;
@@ -274,8 +274,8 @@ static void march_inlet(const setting_t *at, march_t *march, uint32_t cell, bool
     }
     const uint32_t open = belt_observer_next(at->line, cell);
     const belt_real_t pace = pace_ahead(at, march, BELT_REAL(1) + gone);
-    const belt_real_t first = end_density(at, march, observer->density[cell], BELT_REAL(0),
-                                          BELT_REAL(1), pace);
+    const belt_real_t first =
+        end_density(at, march, observer->density[cell], BELT_REAL(0), BELT_REAL(1), pace);
     const belt_real_t second =
         end_density(at, march, observer->density[open], BELT_REAL(1), gone, pace);
     pass(at, march, BELT_REAL(1) + gone, pace, both(first, BELT_REAL(1), second, gone));
@@ -290,8 +290,7 @@ static void conclude(const setting_t *at, march_t *march, belt_real_t before) {
     belt_real_t distance = BELT_REAL(2) + p->width[last];
     if (!line->loss_is_uniform) {
         const belt_passed_t passed = passed_stretches(p, last);
-        belt_transfer_t transfer =
-            belt_fast_forward(line, &passed, (belt_real_t)line->node_count);
+        belt_transfer_t transfer = belt_fast_forward(line, &passed, (belt_real_t)line->node_count);
         belt_fast_forward_last(&transfer, line, p->width[last], p->pace[last],
                                p->outlet_density[last]);
         march->survival = transfer.survival;
@@ -329,8 +328,8 @@ void belt_predictor_march(belt_prediction_t *prediction, const belt_line_t *line
                           const belt_present_t *present, belt_prediction_kind_t kind) {
     const belt_real_t pace_slope =
         (kind == BELT_HOLD_CONGESTION) ? BELT_REAL(0) : line->slowness_slope * line->spacing;
-    const setting_t at = {line, history, observer, prediction, line->connectivity * line->spacing,
-                          pace_slope};
+    const setting_t at = {
+        line, history, observer, prediction, line->connectivity * line->spacing, pace_slope};
     march_t march = start(line, present);
     prediction->level[0] = march.level;
     prediction->arrival[0] = march.arrival;

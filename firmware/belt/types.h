@@ -96,29 +96,29 @@ typedef enum {
     BELT_LOSS_RATE,        /**< every loss_rate is a number >= 0. */
 
     /* Rules of the discretisation. */
-    BELT_NODE_COUNT,        /**< 4 <= node_count <= BELT_NODE_CAPACITY. */
-    BELT_PERIOD,            /**< period is a number in its range. */
-    BELT_PERIOD_PER_NODE,   /**< at full speed material passes at most one node spacing a period. */
-    BELT_WINDOW_SHORT,      /**< speed_window is at least one period. */
-    BELT_WINDOW_LONG,       /**< speed_window/period + 2 <= BELT_WINDOW_CAPACITY. */
-    BELT_DEAD_TIME,         /**< the longest dead time is at most BELT_DEAD_TIME_PERIODS periods. */
-    BELT_LOSS_EXPONENT,     /**< 1/survival stays below exp(BELT_LOSS_EXPONENT_MAX). */
-    BELT_LOSS_PER_NODE,     /**< loss while passing one node spacing is small: raise node_count. */
-    BELT_REWORK_PER_NODE,   /**< rework while passing one spacing is small: raise node_count. */
+    BELT_NODE_COUNT,      /**< 4 <= node_count <= BELT_NODE_CAPACITY. */
+    BELT_PERIOD,          /**< period is a number in its range. */
+    BELT_PERIOD_PER_NODE, /**< at full speed material passes at most one node spacing a period. */
+    BELT_WINDOW_SHORT,    /**< speed_window is at least one period. */
+    BELT_WINDOW_LONG,     /**< speed_window/period + 2 <= BELT_WINDOW_CAPACITY. */
+    BELT_DEAD_TIME,       /**< the longest dead time is at most BELT_DEAD_TIME_PERIODS periods. */
+    BELT_LOSS_EXPONENT,   /**< 1/survival stays below exp(BELT_LOSS_EXPONENT_MAX). */
+    BELT_LOSS_PER_NODE,   /**< loss while passing one node spacing is small: raise node_count. */
+    BELT_REWORK_PER_NODE, /**< rework while passing one spacing is small: raise node_count. */
 
     /* Rules of the law. */
-    BELT_NOMINAL_FLUX_MAX,    /**< 0 < nominal_flux_max <= min(Qmax/service_time, mu)/alpha. */
-    BELT_LEVEL_SETPOINT,      /**< 0 < level_setpoint < alpha Bmax service_time. */
-    BELT_SLOPE_KIND,          /**< slope_kind is one of its words. */
-    BELT_SETPOINT_SLOPE,      /**< S > Smin, strictly. */
-    BELT_PERIOD_PER_SLOPE,    /**< alpha S period <= 1/2: the period is short enough for the slope. */
-    BELT_INLET_FLUX_MAX,      /**< inlet_flux_max > 0. */
-    BELT_PREDICTION_KIND,     /**< prediction is one of its words. */
+    BELT_NOMINAL_FLUX_MAX, /**< 0 < nominal_flux_max <= min(Qmax/service_time, mu)/alpha. */
+    BELT_LEVEL_SETPOINT,   /**< 0 < level_setpoint < alpha Bmax service_time. */
+    BELT_SLOPE_KIND,       /**< slope_kind is one of its words. */
+    BELT_SETPOINT_SLOPE,   /**< S > Smin, strictly. */
+    BELT_PERIOD_PER_SLOPE, /**< alpha S period <= 1/2: the period is short enough for the slope. */
+    BELT_INLET_FLUX_MAX,   /**< inlet_flux_max > 0. */
+    BELT_PREDICTION_KIND,  /**< prediction is one of its words. */
 
     /* Not rules. */
-    BELT_MISUSE,         /**< a null pointer, or a step before a successful init. */
-    BELT_NO_LEVEL,       /**< no level has been trusted yet: nothing is fed. */
-    BELT_INPUT_REJECTED  /**< an input was not trusted: command.error_bits say which. */
+    BELT_MISUSE,        /**< a null pointer, or a step before a successful init. */
+    BELT_NO_LEVEL,      /**< no level has been trusted yet: nothing is fed. */
+    BELT_INPUT_REJECTED /**< an input was not trusted: command.error_bits say which. */
 } belt_status_t;
 
 #define BELT_RULE_FIRST BELT_BELT_LENGTH

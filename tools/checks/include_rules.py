@@ -17,6 +17,7 @@ STAGES = [
     "level_history",
     "observer",
     "estimator",
+    "fast_forward",
     "predictor",
     "nominal_law",
     "command",
