@@ -41,6 +41,7 @@ void belt_line_init(belt_line_t *line, const belt_config_t *config) {
     line->rework_at_outlet = config->rework_rate * config->belt_length;
     line->rework_per_spacing = line->rework_at_outlet / nodes;
     line->node_count = config->node_count;
+    line->cell_slots = (config->node_count + 2u) & ~1u;
     line->loss_is_uniform = is_uniform(config);
     line->loss_mean = loss_up_to(config, config->belt_length) / config->belt_length;
     line->loss_sum[0] = BELT_REAL(0);

@@ -32,6 +32,7 @@ typedef struct {
                                           last stands twice [1/s]. */
     belt_real_t loss_sum[BELT_NODE_CAPACITY + 1]; /**< their sum up to each node [1/s]. */
     uint32_t node_count;
+    uint32_t cell_slots;  /**< node_count + 1 cells lie on the belt; the next even number. */
     bool loss_is_uniform; /**< one C for the whole belt. */
 } belt_line_t;
 

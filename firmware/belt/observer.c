@@ -15,7 +15,6 @@ void belt_observer_init(belt_observer_t *observer) {
     }
     observer->outlet = 0;
     observer->gone = BELT_REAL(0);
-    observer->outlet_is_second = false;
     observer->outlet_density = BELT_REAL(0);
     observer->fed_density = BELT_REAL(0);
     observer->early = BELT_REAL(0);
@@ -80,7 +79,8 @@ static belt_real_t leaving_density(const belt_observer_t *observer, const belt_l
     if (reach <= BELT_REAL(1)) {
         return own;
     }
-    const belt_real_t next = first_part(observer, belt_observer_next(line, cell), reach - last);
+    const belt_real_t next =
+        first_part(observer, belt_observer_behind(line, cell, 1u), reach - last);
     return own + on_leaving(observer, line, next / travel, HALF, pace);
 }
 
@@ -99,12 +99,18 @@ static void age_uniform(belt_observer_t *observer, ageing_t ageing) {
     const belt_real_t survival = belt_line_survival(loss);
     const belt_real_t rework_less = ageing.rework_less * (BELT_REAL(1) - HALF * loss);
     belt_real_t rework = ageing.rework * (BELT_REAL(1) - HALF * loss);
-    uint32_t cell = observer->outlet;
-    for (uint32_t i = 1; i < line->node_count; ++i) {
-        cell = belt_observer_next(line, cell);
-        observer->density[cell] = observer->density[cell] * survival + rework;
-        observer->step[cell] *= survival;
-        rework -= rework_less;
+    /* The ring in its two straight runs. */
+    uint32_t from = observer->outlet + 1u;
+    uint32_t to = observer->outlet + line->node_count;
+    for (int run = 0; run < 2; ++run) {
+        const uint32_t end = (to < line->cell_slots) ? to : line->cell_slots;
+        for (uint32_t cell = from; cell < end; ++cell) {
+            observer->density[cell] = observer->density[cell] * survival + rework;
+            observer->step[cell] *= survival;
+            rework -= rework_less;
+        }
+        from = (from > end) ? from - end : 0u;
+        to = to - end;
     }
 }
 
@@ -113,7 +119,7 @@ static void age_profile(belt_observer_t *observer, ageing_t ageing) {
     belt_real_t rework = ageing.rework;
     uint32_t cell = observer->outlet;
     for (uint32_t i = 1; i < line->node_count; ++i) {
-        cell = belt_observer_next(line, cell);
+        cell = belt_observer_behind(line, cell, 1u);
         const belt_real_t loss =
             ageing.time_here * line->loss[i] + ageing.time_next * line->loss[i - 1];
         const belt_real_t survival = belt_line_survival(loss);
@@ -182,7 +188,7 @@ static void feed(belt_observer_t *observer, const belt_line_t *line, uint32_t op
     observer->density[open] = (present * from + fresh * (to - from)) / to;
 }
 
-/** Ends the open cell at its full width; the cell that has left becomes the new open one. */
+/** Ends the open cell at its full width, `time_since` ago; the slot behind it becomes the open one. */
 static void close_cell(belt_observer_t *observer, const belt_line_t *line, uint32_t open,
                        belt_real_t time_since) {
     const belt_real_t cut = observer->cut[open];
@@ -192,12 +198,11 @@ static void close_cell(belt_observer_t *observer, const belt_line_t *line, uint3
     const belt_real_t loss = line->loss[line->node_count - 1] * time_since;
     observer->density[open] *= belt_line_survival(loss);
 
-    const uint32_t emptied = observer->outlet;
-    observer->outlet = belt_observer_next(line, emptied);
-    observer->outlet_is_second = !observer->outlet_is_second;
-    observer->density[emptied] = BELT_REAL(0);
-    observer->step[emptied] = BELT_REAL(0);
-    observer->cut[emptied] = BELT_REAL(0);
+    const uint32_t fresh = belt_observer_behind(line, open, 1u);
+    observer->outlet = belt_observer_behind(line, observer->outlet, 1u);
+    observer->density[fresh] = BELT_REAL(0);
+    observer->step[fresh] = BELT_REAL(0);
+    observer->cut[fresh] = BELT_REAL(0);
     observer->early = BELT_REAL(0);
     observer->cut_weight = BELT_REAL(0);
 }
@@ -210,14 +215,14 @@ void belt_observer_advance(belt_observer_t *observer, const belt_line_t *line,
                                    : leaving_density(observer, line, passage->travel, pace);
     age_cells(observer, line, passage, pace);
 
-    const uint32_t open = (observer->outlet == 0u) ? line->node_count : observer->outlet - 1u;
+    const uint32_t open = belt_observer_behind(line, observer->outlet, line->node_count);
     const belt_real_t reach = observer->gone + passage->travel;
     if (reach < BELT_REAL(1)) {
         feed(observer, line, open, observer->gone, reach, passage->fed_density, pace);
         observer->gone = reach;
     } else {
         const belt_real_t rest = reach - BELT_REAL(1);
-        const uint32_t fresh = observer->outlet;
+        const uint32_t fresh = belt_observer_behind(line, open, 1u);
         feed(observer, line, open, observer->gone, BELT_REAL(1), passage->fed_density, pace);
         close_cell(observer, line, open, rest * pace);
         observer->fed_density = passage->fed_density;

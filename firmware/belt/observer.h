@@ -23,17 +23,17 @@
 
 #include "line_model.h"
 
-#define BELT_CELL_CAPACITY (BELT_NODE_CAPACITY + 1)
+#define BELT_CELL_CAPACITY (BELT_NODE_CAPACITY + 2)
 
 typedef struct {
     belt_real_t density[BELT_CELL_CAPACITY]; /**< ring: mean density of each cell [parts/m]. */
     belt_real_t step[BELT_CELL_CAPACITY];    /**< density inlet-side less outlet-side of the cut. */
     belt_real_t cut[BELT_CELL_CAPACITY];     /**< share of the cell on the outlet side, [0, 1). */
-    uint32_t outlet;       /**< ring index of the outlet cell; the open cell stands before it. */
-    belt_real_t gone;      /**< share of the outlet cell that has left, of the open cell that
+    uint32_t
+        outlet; /**< ring index of the outlet cell. Cells 2m and 2m + 1 are a pair for the march,
+                        and stay one on their way. */
+    belt_real_t gone;           /**< share of the outlet cell that has left, of the open cell that
                                       has been fed, [0, 1). */
-    bool outlet_is_second; /**< the march takes cells in pairs that stay pairs on their way: the
-                                      outlet cell is the inlet-side one of its pair. */
     belt_real_t outlet_density; /**< mean density that left in the last period [parts/m]. */
     belt_real_t fed_density;    /**< density fed in the last period [parts/m]. */
     belt_real_t early;          /**< open cell: mean density on the outlet side of its cut. */
@@ -64,9 +64,11 @@ void belt_observer_advance(belt_observer_t *observer, const belt_line_t *line,
 /** Mean density of what is left of the outlet cell [parts/m]. */
 belt_real_t belt_observer_rest_of_outlet(const belt_observer_t *observer);
 
-/** The ring's next cell towards the inlet. */
-static inline uint32_t belt_observer_next(const belt_line_t *line, uint32_t cell) {
-    return (cell >= line->node_count) ? 0u : cell + 1u;
+/** The ring's cell `count` further towards the inlet, count <= node_count. */
+static inline uint32_t belt_observer_behind(const belt_line_t *line, uint32_t cell,
+                                            uint32_t count) {
+    const uint32_t index = cell + count;
+    return (index < line->cell_slots) ? index : index - line->cell_slots;
 }
 
 #endif

@@ -11,8 +11,8 @@ typedef struct {
     belt_real_t tail;         /**< level that leaves the window [parts]. */
     belt_real_t place;        /**< of the line, now [spacings from the outlet]. */
     belt_real_t survival;     /**< K; at the line for uniform loss, else at the last middle. */
-    belt_real_t rework;       /**< I; likewise. */
-    belt_real_t rework_slope; /**< how much less of the rework a spacing on; uniform loss only. */
+    belt_real_t rework;       /**< I/K: what could have been fed instead; likewise. */
+    belt_real_t rework_slope; /**< how much less of that a spacing on; uniform loss only. */
     uint32_t count;           /**< stretches passed. */
     uint32_t tail_line;       /**< the line at or before the window's end, once it is predicted. */
 } march_t;
@@ -85,73 +85,67 @@ static inline void pass(const setting_t *at, march_t *march, belt_real_t width, 
     march->count = count + 1u;
 }
 
-/* Uniform loss: all material ages alike, so survival and rework are carried along (MF4, MF7):
- *     survival'     = -C*survival                            (' = d/dtime)
- *     rework'       = A*D*p2 - C*rework - rework_slope per spacing
- *     rework_slope' = A*spacing*p2 - C*rework_slope
- * All of it is linear, so one cell's midpoint step comes down to six factors. */
+/* Uniform loss: all material ages alike, so survival and rework are carried along (MF4, MF7). With
+ * the rework as a density that could have been fed instead, p2 = survival*amount, where amount =
+ * density + rework, and the loss divides out of the rest:
+ *     survival'     = -C*survival                              (' = d/dtime)
+ *     rework'       = A*D*amount - rework_slope per spacing
+ *     rework_slope' = A*spacing*amount
+ */
 typedef struct {
-    belt_real_t kept;       /**< what survives the cell. */
-    belt_real_t leaving;    /**< outlet density per survival*density + rework at the near line... */
-    belt_real_t slope;      /**< ...less this much of the slope. */
-    belt_real_t rework;     /**< rework gained per outlet density. */
-    belt_real_t slope_lost; /**< rework lost per slope. */
-    belt_real_t slope_gain; /**< slope gained per outlet density. */
+    belt_real_t kept_half; /**< what survives half the cell. */
+    belt_real_t width;     /**< [spacings]. */
+    belt_real_t middle; /**< amount in the middle per amount at the near line, but for the slope. */
+    belt_real_t rework; /**< rework gained in the cell per amount. */
+    belt_real_t slope;  /**< slope gained in it per amount. */
 } factors_t;
 
 static inline factors_t factors_of(const belt_line_t *line, belt_real_t width, belt_real_t pace) {
     const belt_real_t dwell = width * pace;
-    const belt_real_t loss = HALF * line->loss_mean * dwell;
-    const belt_real_t kept = belt_line_survival(loss);           /* half a cell */
-    const belt_real_t kept_halfway = BELT_REAL(1) - HALF * loss; /* a quarter */
-    const belt_real_t rework = line->rework_at_outlet * dwell;
-    const belt_real_t slope = line->rework_per_spacing * dwell;
-    /* Half the cell's outlet density before its rework, that rework in it. */
-    const belt_real_t half = kept_halfway * (HALF + BELT_REAL(0.25) * rework);
+    const belt_real_t half_rework = HALF * line->rework_at_outlet * dwell;
     factors_t factors;
-    factors.kept = kept * kept;
-    factors.leaving = kept * (BELT_REAL(1) + half * (rework - BELT_REAL(0.25) * width * slope));
-    factors.slope = HALF * width * kept;
-    factors.rework = kept * (rework - HALF * width * slope);
-    factors.slope_lost = factors.kept * width;
-    factors.slope_gain = kept * slope;
+    factors.kept_half = belt_line_survival(HALF * line->loss_mean * dwell);
+    factors.width = width;
+    factors.slope = line->rework_per_spacing * dwell;
+    /* Half a cell: rework by what enters it and by what that makes, less by the slope it makes. */
+    factors.middle = BELT_REAL(1) + half_rework * (BELT_REAL(1) + half_rework) -
+                     BELT_REAL(0.125) * width * factors.slope;
+    factors.rework = BELT_REAL(2) * half_rework - HALF * width * factors.slope;
     return factors;
 }
 
-/** Survival and rework behind a cell that leaves with `outlet_density`. */
-static inline void carry(march_t *march, const factors_t *factors, belt_real_t outlet_density) {
-    march->survival *= factors->kept;
-    march->rework = factors->kept * march->rework + factors->rework * outlet_density -
-                    factors->slope_lost * march->rework_slope;
-    march->rework_slope =
-        factors->kept * march->rework_slope + factors->slope_gain * outlet_density;
+/** Behind a cell that left with `amount`. */
+static inline void carry_rework(march_t *march, const factors_t *factors, belt_real_t amount) {
+    march->rework += factors->rework * amount - factors->width * march->rework_slope;
+    march->rework_slope += factors->slope * amount;
 }
 
-/** p2 of one cell, as its middle leaves. */
+/** p2 of one cell, as its middle leaves; the march then is behind it. */
 static inline belt_real_t carried_density(march_t *march, const factors_t *factors,
                                           belt_real_t density) {
-    const belt_real_t outlet_density =
-        factors->leaving * (march->survival * density + march->rework) -
-        factors->slope * march->rework_slope;
-    carry(march, factors, outlet_density);
-    return outlet_density;
+    const belt_real_t amount =
+        factors->middle * (density + march->rework) - HALF * factors->width * march->rework_slope;
+    const belt_real_t survival = march->survival * factors->kept_half;
+    march->survival = survival * factors->kept_half;
+    carry_rework(march, factors, amount);
+    return survival * amount;
 }
 
-/** Whole cells in pairs, uniform loss: the loop in which the step spends its time. `before` gets the
- * rework at the last pair's near line. Returns the ring index of the cell behind them. */
+/** Whole cells in pairs, uniform loss: the loop in which the step spends its time. `before` gets I at
+ * the last pair's near line. Returns the ring index of the cell behind them. */
 static uint32_t march_pairs(const setting_t *at, march_t *start, uint32_t cell, uint32_t pairs,
                             belt_real_t *before) {
     march_t march = *start;
     for (uint32_t i = 0; i < pairs; ++i) {
         const belt_real_t pace = pace_ahead(at, &march, BELT_REAL(2));
         const factors_t factors = factors_of(at->line, BELT_REAL(1), pace);
-        *before = march.rework;
-        const belt_real_t first = carried_density(&march, &factors, at->observer->density[cell]);
-        cell = belt_observer_next(at->line, cell);
-        const belt_real_t second = carried_density(&march, &factors, at->observer->density[cell]);
-        cell = belt_observer_next(at->line, cell);
+        *before = march.survival * march.rework;
+        const belt_real_t *density = &at->observer->density[cell];
+        const belt_real_t first = carried_density(&march, &factors, density[0]);
+        const belt_real_t second = carried_density(&march, &factors, density[1]);
         const leaving_t leaving = {HALF * (first + second), BELT_REAL(0.125) * (first - second)};
         pass(at, &march, BELT_REAL(2), pace, leaving);
+        cell = belt_observer_behind(at->line, cell, 2u);
     }
     *start = march;
     return cell;
@@ -172,18 +166,17 @@ static void forward(const setting_t *at, march_t *march, belt_real_t place, belt
     const belt_real_t left = transfer.survival * density + transfer.rework;
     belt_fast_forward_last(&transfer, at->line, rest, pace, left);
     march->survival = transfer.survival;
-    march->rework = transfer.rework;
+    march->rework = transfer.rework / transfer.survival;
 }
 
 /** The pairs again, for any loss: the middle is moved past all before it, the two cells told apart
- * by the loss between them. `before` gets the rework at the last pair's middle. */
+ * by the loss between them. `before` gets I at the last pair's middle. */
 static uint32_t march_pairs_forward(const setting_t *at, march_t *march, uint32_t cell,
                                     uint32_t pairs, belt_real_t *before) {
     const belt_line_t *line = at->line;
     for (uint32_t i = 0; i < pairs; ++i) {
-        const uint32_t outer_cell = belt_observer_next(line, cell);
         const belt_real_t inner = at->observer->density[cell];
-        const belt_real_t outer = at->observer->density[outer_cell];
+        const belt_real_t outer = at->observer->density[cell + 1u];
         const belt_real_t middle = march->place + BELT_REAL(1);
         const belt_real_t pace = pace_ahead(at, march, BELT_REAL(2));
         forward(at, march, middle, BELT_REAL(1), pace, HALF * (inner + outer));
@@ -193,12 +186,12 @@ static uint32_t march_pairs_forward(const setting_t *at, march_t *march, uint32_
         const belt_real_t less = more - BELT_REAL(2) * loss;
         const belt_real_t first = march->survival * more * inner;
         const belt_real_t second = march->survival * less * outer;
-        const leaving_t leaving = {HALF * (first + second) + march->rework,
+        const leaving_t leaving = {HALF * (first + second) + march->survival * march->rework,
                                    BELT_REAL(0.125) * (first - second)};
         pass(at, march, BELT_REAL(2), pace, leaving);
-        cell = belt_observer_next(line, outer_cell);
+        cell = belt_observer_behind(line, cell, 2u);
     }
-    *before = march->rework;
+    *before = march->survival * march->rework;
     return cell;
 }
 
@@ -211,7 +204,7 @@ static belt_real_t end_density(const setting_t *at, march_t *march, belt_real_t 
     }
     const belt_real_t rest = ahead + HALF * width;
     forward(at, march, march->place + rest, rest, pace, density);
-    return march->survival * density + march->rework;
+    return march->survival * (density + march->rework);
 }
 
 /** p2 of what is left of the outlet cell: its centre has less than half a spacing to go, or none. */
@@ -225,7 +218,8 @@ static belt_real_t outlet_cell_density(const setting_t *at, march_t *march, belt
         density = transfer.survival * density + transfer.rework;
     }
     const factors_t factors = factors_of(at->line, width, pace);
-    carry(march, &factors, density);
+    carry_rework(march, &factors, density / factors.kept_half);
+    march->survival = factors.kept_half * factors.kept_half;
     return density;
 }
 
@@ -240,13 +234,18 @@ static leaving_t both(belt_real_t first, belt_real_t first_width, belt_real_t se
     return leaving;
 }
 
+/** Whether the outlet cell is the inlet-side one of its pair. */
+static bool outlet_is_second(const belt_observer_t *observer) {
+    return (observer->outlet & 1u) != 0u;
+}
+
 /** The outlet's end: the rest of the outlet cell, with the other one of its pair if that is still
  * on the belt. Returns the ring index of the cell behind. */
 static uint32_t march_outlet(const setting_t *at, march_t *march) {
     const belt_observer_t *observer = at->observer;
     const belt_real_t width = BELT_REAL(1) - observer->gone;
-    const uint32_t next = belt_observer_next(at->line, observer->outlet);
-    if (observer->outlet_is_second) {
+    const uint32_t next = belt_observer_behind(at->line, observer->outlet, 1u);
+    if (outlet_is_second(observer)) {
         const belt_real_t pace = pace_ahead(at, march, width);
         const leaving_t leaving = {outlet_cell_density(at, march, width, pace), BELT_REAL(0)};
         pass(at, march, width, pace, leaving);
@@ -257,7 +256,7 @@ static uint32_t march_outlet(const setting_t *at, march_t *march) {
     const belt_real_t second =
         end_density(at, march, observer->density[next], width, BELT_REAL(1), pace);
     pass(at, march, width + BELT_REAL(1), pace, both(first, width, second, BELT_REAL(1)));
-    return belt_observer_next(at->line, next);
+    return belt_observer_behind(at->line, next, 1u);
 }
 
 /** The inlet's end: the open cell, with the whole one of its pair if there is one. */
@@ -272,7 +271,7 @@ static void march_inlet(const setting_t *at, march_t *march, uint32_t cell, bool
         pass(at, march, gone, pace, leaving);
         return;
     }
-    const uint32_t open = belt_observer_next(at->line, cell);
+    const uint32_t open = belt_observer_behind(at->line, cell, 1u);
     const belt_real_t pace = pace_ahead(at, march, BELT_REAL(1) + gone);
     const belt_real_t first =
         end_density(at, march, observer->density[cell], BELT_REAL(0), BELT_REAL(1), pace);
@@ -281,7 +280,7 @@ static void march_inlet(const setting_t *at, march_t *march, uint32_t cell, bool
     pass(at, march, BELT_REAL(1) + gone, pace, both(first, BELT_REAL(1), second, gone));
 }
 
-/** What (MF1) asks for at the inlet, out of the march's last line. `before` is the rework at the
+/** What (MF1) asks for at the inlet, out of the march's last line. `before` is I at the
  * last whole pair: for uniform loss where it begins, else in its middle. */
 static void conclude(const setting_t *at, march_t *march, belt_real_t before) {
     const belt_line_t *line = at->line;
@@ -294,17 +293,18 @@ static void conclude(const setting_t *at, march_t *march, belt_real_t before) {
         belt_fast_forward_last(&transfer, line, p->width[last], p->pace[last],
                                p->outlet_density[last]);
         march->survival = transfer.survival;
-        march->rework = transfer.rework;
+        march->rework = transfer.rework / transfer.survival;
         distance -= BELT_REAL(1);
     }
+    const belt_real_t rework = march->survival * march->rework;
     p->count = march->count;
     p->inlet_level = march->level;
     p->inlet_arrival = march->arrival;
     p->inlet_slowness = march->pace / line->spacing;
     p->inlet_congestion = (p->inlet_slowness - line->slowness_empty) / line->slowness_slope;
     p->inlet_survival = march->survival;
-    p->inlet_rework = march->rework;
-    p->inlet_rework_slope = (march->rework - before) / distance;
+    p->inlet_rework = rework;
+    p->inlet_rework_slope = (rework - before) / distance;
     p->inlet_tail = march->tail;
 }
 
@@ -335,7 +335,7 @@ void belt_predictor_march(belt_prediction_t *prediction, const belt_line_t *line
     prediction->arrival[0] = march.arrival;
 
     /* Of the cells 0 ... node_count the outlet's end takes one or two, the inlet's end the rest. */
-    const uint32_t behind = line->node_count - (observer->outlet_is_second ? 0u : 1u);
+    const uint32_t behind = line->node_count - (outlet_is_second(observer) ? 0u : 1u);
     const uint32_t pairs = (behind - 1u) / 2u;
     belt_real_t before = BELT_REAL(0);
     uint32_t cell = march_outlet(&at, &march);
