@@ -51,7 +51,7 @@ static void move_belt(belt_controller_t *controller, belt_real_t speed_before,
     if (trusted->has_density) {
         belt_observer_assume(&controller->observer, &controller->line, measurement->density);
     } else if (controller->state == STATE_RUNNING) {
-        const belt_real_t speed = BELT_REAL(0.5) * (speed_before + controller->transport_speed);
+        const belt_real_t speed = BELT_HALF * (speed_before + controller->transport_speed);
         const belt_real_t travel = speed * controller->config.period / controller->line.spacing;
         belt_passage_t passage;
         passage.duration = controller->config.period;

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "command.h"
 
-#define HALF BELT_REAL(0.5)
-
 belt_real_t belt_command_limit(belt_real_t flux, belt_real_t limit) {
     if (!(flux > BELT_REAL(0))) {
         return BELT_REAL(0);
@@ -14,7 +12,7 @@ belt_real_t belt_command_solve(const belt_prediction_t *prediction, const belt_l
                                const belt_level_history_t *history, const belt_nominal_law_t *law,
                                const belt_present_t *present) {
     /* Feeding: the middle of the hold. */
-    const belt_real_t half_hold = HALF * history->period;
+    const belt_real_t half_hold = BELT_HALF * history->period;
     const belt_real_t present_tail = belt_level_history_at(history, history->window);
     const belt_real_t feeding =
         belt_line_slowness(line, present->congestion + half_hold * (present->level - present_tail));

@@ -25,7 +25,7 @@ static belt_real_t mean_loss_rate(const belt_config_t *config) {
     }
     belt_real_t sum = BELT_REAL(0);
     for (uint16_t i = 0; (i + 1 < config->loss_count) && (i + 1 < BELT_LOSS_CAPACITY); ++i) {
-        sum += BELT_REAL(0.5) * (config->loss_rate[i] + config->loss_rate[i + 1]);
+        sum += BELT_HALF * (config->loss_rate[i] + config->loss_rate[i + 1]);
     }
     return sum / BELT_REAL(config->loss_count - 1);
 }

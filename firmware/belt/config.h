@@ -23,7 +23,7 @@
 /** Greatest loss and rework while passing one node spacing: the march is of second order in them. */
 #define BELT_CHANGE_PER_NODE_MAX BELT_REAL(0.25)
 /** Greatest alpha S period: from 1 on the held command overshoots the law it samples. */
-#define BELT_SLOPE_PERIODS_MAX BELT_REAL(0.5)
+#define BELT_SLOPE_PERIODS_MAX BELT_HALF
 /** inlet_flux_max of an actuator without a limit. */
 #define BELT_NO_FLUX_LIMIT BELT_REAL_MAX
 

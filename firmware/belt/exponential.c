@@ -43,7 +43,7 @@ belt_real_t belt_expm1(belt_real_t x) {
         return BELT_REAL(-1);
     }
     /* x = r - halvings*ln 2 with |r| <= ln(2)/2. */
-    const int32_t halvings = (int32_t)(BELT_REAL(0.5) - x * LOG2_E);
+    const int32_t halvings = (int32_t)(BELT_HALF - x * LOG2_E);
     const belt_real_t count = (belt_real_t)halvings;
     const belt_real_t r = (x + count * LN2_HIGH) + count * LN2_LOW;
 

@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 #include "fast_forward.h"
 
-#define HALF BELT_REAL(0.5)
-
 /** Loss and rework on one way: loss exponent, rework rate in its middle, density leaving, time. */
 static inline void move_on(belt_transfer_t *transfer, belt_real_t loss, belt_real_t rework_rate,
                            belt_real_t left, belt_real_t time) {
     const belt_real_t kept = belt_line_survival(loss);
-    const belt_real_t kept_halfway = BELT_REAL(1) - HALF * loss;
+    const belt_real_t kept_halfway = BELT_REAL(1) - BELT_HALF * loss;
     transfer->survival *= kept;
     transfer->rework = transfer->rework * kept + rework_rate * left * time * kept_halfway;
 }
@@ -22,8 +20,9 @@ belt_transfer_t belt_fast_forward(const belt_line_t *line, const belt_passed_t *
         const belt_real_t pace = passed->pace[i];
         const belt_real_t to = from - width;
         const belt_real_t to_sum = belt_line_loss_sum(line, to);
-        move_on(&transfer, (from_sum - to_sum) * pace, belt_line_rework(line, HALF * (from + to)),
-                passed->outlet_density[i], width * pace);
+        move_on(&transfer, (from_sum - to_sum) * pace,
+                belt_line_rework(line, BELT_HALF * (from + to)), passed->outlet_density[i],
+                width * pace);
         from = to;
         from_sum = to_sum;
     }
@@ -32,6 +31,6 @@ belt_transfer_t belt_fast_forward(const belt_line_t *line, const belt_passed_t *
 
 void belt_fast_forward_last(belt_transfer_t *transfer, const belt_line_t *line, belt_real_t place,
                             belt_real_t pace, belt_real_t left) {
-    move_on(transfer, belt_line_loss_sum(line, place) * pace, belt_line_rework(line, HALF * place),
-            left, place * pace);
+    move_on(transfer, belt_line_loss_sum(line, place) * pace,
+            belt_line_rework(line, BELT_HALF * place), left, place * pace);
 }

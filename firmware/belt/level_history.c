@@ -17,7 +17,7 @@ void belt_level_history_init(belt_level_history_t *history, const belt_config_t 
 }
 
 static belt_quanta_t in_quanta(const belt_level_history_t *history, belt_real_t level) {
-    return (belt_quanta_t)(level * history->per_part + BELT_REAL(0.5));
+    return (belt_quanta_t)(level * history->per_part + BELT_HALF);
 }
 
 void belt_level_history_fill(belt_level_history_t *history, belt_real_t level) {
@@ -46,8 +46,8 @@ belt_real_t belt_level_history_congestion(const belt_level_history_t *history) {
     const belt_quanta_t beyond =
         history->level[belt_level_history_index(history, history->whole + 1u)];
     const belt_real_t trapezoids =
-        (belt_real_t)history->window_sum - BELT_REAL(0.5) * (belt_real_t)(first + last);
-    const belt_real_t rest = history->part * ((belt_real_t)last + BELT_REAL(0.5) * history->part *
+        (belt_real_t)history->window_sum - BELT_HALF * (belt_real_t)(first + last);
+    const belt_real_t rest = history->part * ((belt_real_t)last + BELT_HALF * history->part *
                                                                       (belt_real_t)(beyond - last));
     return (trapezoids + rest) * (history->period * history->quantum);
 }

@@ -13,7 +13,7 @@ static belt_real_t loss_up_to(const belt_config_t *config, belt_real_t x) {
         const belt_real_t reach = (rest < width) ? rest : width;
         const belt_real_t left = config->loss_rate[i];
         const belt_real_t rise = (config->loss_rate[i + 1] - left) / width;
-        integral += reach * (left + BELT_REAL(0.5) * rise * reach);
+        integral += reach * (left + BELT_HALF * rise * reach);
         rest -= width;
     }
     return integral;

@@ -67,8 +67,7 @@ static inline belt_real_t belt_line_loss_sum(const belt_line_t *line, belt_real_
  * which twice BELT_CHANGE_PER_NODE_MAX bounds. Error below loss^4/24. */
 static inline belt_real_t belt_line_survival(belt_real_t loss) {
     const belt_real_t third = BELT_REAL(1) / BELT_REAL(3);
-    return BELT_REAL(1) -
-           loss * (BELT_REAL(1) - BELT_REAL(0.5) * loss * (BELT_REAL(1) - third * loss));
+    return BELT_REAL(1) - loss * (BELT_REAL(1) - BELT_HALF * loss * (BELT_REAL(1) - third * loss));
 }
 
 #endif

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "observer.h"
 
-#define HALF BELT_REAL(0.5)
 /** A later cut must tell this much more apart: equals stay equal under rounding, in any units. */
 #define BETTER BELT_REAL(1.001)
 /** A cut closer to the inlet end than this is not worth telling the sides apart. */
@@ -25,9 +24,9 @@ void belt_observer_assume(belt_observer_t *observer, const belt_line_t *line,
                           const belt_real_t *density) {
     belt_observer_init(observer);
     for (uint32_t i = 0; i < line->node_count; ++i) {
-        observer->density[i] = HALF * (density[i] + density[i + 1]);
-        observer->cut[i] = HALF;
-        observer->step[i] = HALF * (density[i + 1] - density[i]);
+        observer->density[i] = BELT_HALF * (density[i] + density[i + 1]);
+        observer->cut[i] = BELT_HALF;
+        observer->step[i] = BELT_HALF * (density[i + 1] - density[i]);
     }
     observer->outlet_density = density[0];
     observer->fed_density = density[line->node_count];
@@ -75,13 +74,14 @@ static belt_real_t leaving_density(const belt_observer_t *observer, const belt_l
     const belt_real_t last = (reach < BELT_REAL(1)) ? reach : BELT_REAL(1);
     const belt_real_t mean =
         (first_part(observer, cell, last) - first_part(observer, cell, observer->gone));
-    const belt_real_t own = on_leaving(observer, line, mean / travel, HALF - observer->gone, pace);
+    const belt_real_t own =
+        on_leaving(observer, line, mean / travel, BELT_HALF - observer->gone, pace);
     if (reach <= BELT_REAL(1)) {
         return own;
     }
     const belt_real_t next =
         first_part(observer, belt_observer_behind(line, cell, 1u), reach - last);
-    return own + on_leaving(observer, line, next / travel, HALF, pace);
+    return own + on_leaving(observer, line, next / travel, BELT_HALF, pace);
 }
 
 /** One period's ageing of whole cells, the same for all or different from cell to cell. */
@@ -97,8 +97,8 @@ static void age_uniform(belt_observer_t *observer, ageing_t ageing) {
     const belt_line_t *line = ageing.line;
     const belt_real_t loss = line->loss_mean * (ageing.time_here + ageing.time_next);
     const belt_real_t survival = belt_line_survival(loss);
-    const belt_real_t rework_less = ageing.rework_less * (BELT_REAL(1) - HALF * loss);
-    belt_real_t rework = ageing.rework * (BELT_REAL(1) - HALF * loss);
+    const belt_real_t rework_less = ageing.rework_less * (BELT_REAL(1) - BELT_HALF * loss);
+    belt_real_t rework = ageing.rework * (BELT_REAL(1) - BELT_HALF * loss);
     /* The ring in its two straight runs. */
     uint32_t from = observer->outlet + 1u;
     uint32_t to = observer->outlet + line->node_count;
@@ -124,7 +124,7 @@ static void age_profile(belt_observer_t *observer, ageing_t ageing) {
             ageing.time_here * line->loss[i] + ageing.time_next * line->loss[i - 1];
         const belt_real_t survival = belt_line_survival(loss);
         observer->density[cell] =
-            observer->density[cell] * survival + rework * (BELT_REAL(1) - HALF * loss);
+            observer->density[cell] * survival + rework * (BELT_REAL(1) - BELT_HALF * loss);
         observer->step[cell] *= survival;
         rework -= ageing.rework_less;
     }
@@ -134,7 +134,7 @@ static void age_profile(belt_observer_t *observer, ageing_t ageing) {
 static void age_cells(belt_observer_t *observer, const belt_line_t *line,
                       const belt_passage_t *passage, belt_real_t pace) {
     const belt_real_t travel = passage->travel;
-    const belt_real_t offset = HALF - observer->gone;
+    const belt_real_t offset = BELT_HALF - observer->gone;
     /* Centres lie `offset` beyond a node and move on together: one part of the period in one node
      * spacing, the other in the next, the same for all of them. */
     const belt_real_t ahead = (offset > BELT_REAL(0)) ? offset : BELT_REAL(0);
@@ -144,7 +144,7 @@ static void age_cells(belt_observer_t *observer, const belt_line_t *line,
         line,
         here * pace,
         (travel - here) * pace,
-        source * belt_line_rework(line, BELT_REAL(1) + offset - HALF * travel),
+        source * belt_line_rework(line, BELT_REAL(1) + offset - BELT_HALF * travel),
         source * line->rework_per_spacing,
     };
     observer->density[observer->outlet] =
@@ -177,12 +177,12 @@ static void feed(belt_observer_t *observer, const belt_line_t *line, uint32_t op
      * taken at the age at which it will pass the place where the centre is at the end. */
     const belt_real_t loss = line->loss[line->node_count - 1] * pace;
     const belt_real_t rework = line->rework_per_spacing * observer->outlet_density * pace;
-    const belt_real_t drift = HALF * (to - from);
-    const belt_real_t centre = HALF * to;
+    const belt_real_t drift = BELT_HALF * (to - from);
+    const belt_real_t centre = BELT_HALF * to;
     const belt_real_t kept = belt_line_survival(loss * drift);
-    const belt_real_t gained = rework * drift * (centre - HALF * drift);
+    const belt_real_t gained = rework * drift * (centre - BELT_HALF * drift);
     const belt_real_t fresh =
-        density * belt_line_survival(loss * centre) + HALF * rework * centre * centre;
+        density * belt_line_survival(loss * centre) + BELT_HALF * rework * centre * centre;
     const belt_real_t present = observer->density[open] * kept + gained;
     observer->early = observer->early * kept + gained;
     observer->density[open] = (present * from + fresh * (to - from)) / to;

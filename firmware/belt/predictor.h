@@ -22,33 +22,7 @@
 #ifndef BELT_PREDICTOR_H
 #define BELT_PREDICTOR_H
 
-#include "fast_forward.h"
-#include "level_history.h"
-#include "observer.h"
-
-/** Stretches that a march passes: cells in pairs, at each end a pair or one cell. */
-#define BELT_STRETCH_CAPACITY (BELT_NODE_CAPACITY / 2 + 2)
-
-/** What the march found. Line 0 is the outlet now, line i + 1 the inlet end of stretch i, the last
- * line the inlet. Times are from now. */
-typedef struct {
-    belt_real_t level[BELT_STRETCH_CAPACITY + 1];   /**< p1 at the lines [parts]. */
-    belt_real_t arrival[BELT_STRETCH_CAPACITY + 1]; /**< sigma - t at the lines [s]. */
-    belt_real_t width[BELT_STRETCH_CAPACITY];       /**< of each stretch, at most 2 [spacings]. */
-    belt_real_t
-        pace[BELT_STRETCH_CAPACITY]; /**< time for a spacing as each passes the outlet [s]. */
-    belt_real_t outlet_density[BELT_STRETCH_CAPACITY]; /**< p2, its mean over each [parts/m]. */
-    uint32_t count;                                    /**< stretches. */
-
-    belt_real_t inlet_level;      /**< p1(D) [parts]. */
-    belt_real_t inlet_arrival;    /**< sigma(D) - t: the dead time [s]. */
-    belt_real_t inlet_slowness;   /**< P (1 + p3(D)) [s/m]. */
-    belt_real_t inlet_congestion; /**< p3(D) [parts s]. */
-    belt_real_t inlet_survival;   /**< K(D, D): share of what is fed now that will leave, (0, 1]. */
-    belt_real_t inlet_rework;     /**< I(D): density it will have picked up by then [parts/m]. */
-    belt_real_t inlet_rework_slope; /**< how much more of it a spacing further in [parts/m]. */
-    belt_real_t inlet_tail;         /**< level that leaves the window when it arrives [parts]. */
-} belt_prediction_t;
+#include "march.h"
 
 /** What the march starts from. */
 typedef struct {

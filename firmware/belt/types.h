@@ -73,6 +73,7 @@ BELT_STATIC_ASSERT(double_is_binary, DBL_MANT_DIG == 53);
 
 /** A number written so that it has the type belt_real_t: BELT_REAL(0.5). */
 #define BELT_REAL(number) ((belt_real_t)(number))
+#define BELT_HALF BELT_REAL(0.5)
 
 /**
  * What a call says. Codes from BELT_BELT_LENGTH to BELT_PREDICTION_KIND are the rules of a

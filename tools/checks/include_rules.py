@@ -18,6 +18,8 @@ STAGES = [
     "observer",
     "estimator",
     "fast_forward",
+    "carried_transfer",
+    "march",
     "predictor",
     "nominal_law",
     "command",
