@@ -216,8 +216,8 @@ bool scenario_read_with(const char *text, size_t length, const char *name,
     if (!is_consistent(&draft, &in_all)) {
         return false;
     }
+    draft.scenario.name = "scenario";
     *scenario = draft.scenario;
-    scenario->name = name;
     return true;
 }
 

@@ -38,7 +38,8 @@ typedef enum { OUTLET_MODELLED, OUTLET_MEASURED } scenario_outlet_t;
 typedef enum { SCHEME_CHARACTERISTICS, SCHEME_UPWIND } scenario_scheme_t;
 
 typedef struct {
-    const char *name; /**< what messages call the scenario; the caller's own text. */
+    const char *name; /**< what the controller's messages call it: "scenario", until the caller
+                         gives it another. */
     line_t line;      /**< [line]: the model the controller is told. */
     struct {
         double level_setpoint;   /**< Q* at the start [parts]. */

@@ -10,7 +10,9 @@ set(pytest_environment
     HYPOTHESIS_STORAGE_DIRECTORY=${builds}/hypothesis
     BELT_SIM=${builds}/host/belt_sim
     BELT_SIM_F64=${builds}/host-f64/belt_sim
-    BELT_SIM_SANITIZE=${builds}/sanitize/belt_sim)
+    BELT_SIM_SANITIZE=${builds}/sanitize/belt_sim
+    BELT_REPLAY=${builds}/host/belt_replay
+    BELT_REPLAY_F64=${builds}/host-f64/belt_replay)
 
 # Where pytest finds no test it exits with 5, which fails the test here too.
 # COST: ctest starts the long ones first.

@@ -33,7 +33,7 @@ belt_status_t belt_init(belt_controller_t *controller, const belt_config_t *conf
 static belt_real_t record_level(belt_controller_t *controller) {
     const belt_real_t speed_before = controller->transport_speed;
     if (controller->state == STATE_READY) {
-        belt_level_history_fill(&controller->history, controller->trusted.level);
+        belt_level_history_begin(&controller->history, controller->trusted.level);
     } else {
         belt_level_history_push(&controller->history, controller->trusted.level);
     }

@@ -18,7 +18,9 @@ belt_real_t belt_gains_root(belt_real_t steepness) {
         }
         x = next;
     }
-    return x;
+    /* So close to 1 that rounding took the root: the law then is a straight line, and any small gain
+     * gives it. */
+    return (x > BELT_REAL_EPSILON) ? x : BELT_REAL_EPSILON;
 }
 
 belt_gains_t belt_gains_solve(const belt_config_t *config) {

@@ -13,24 +13,24 @@ void belt_level_history_init(belt_level_history_t *history, const belt_config_t 
     const belt_real_t most = (belt_real_t)((belt_word_t)1 << BELT_QUANTA_BITS);
     history->per_part = most / (config->level_capacity * (belt_real_t)history->length);
     history->quantum = BELT_REAL(1) / history->per_part;
-    belt_level_history_fill(history, BELT_REAL(0));
+    for (uint32_t i = 0; i < history->length; ++i) {
+        history->level[i] = 0;
+    }
+    history->newest = 0;
+    history->window_sum = 0;
+    history->base = 0;
 }
 
 static belt_quanta_t in_quanta(const belt_level_history_t *history, belt_real_t level) {
     return (belt_quanta_t)(level * history->per_part + BELT_HALF);
 }
 
-void belt_level_history_fill(belt_level_history_t *history, belt_real_t level) {
-    const belt_quanta_t quanta = in_quanta(history, level);
-    for (uint32_t i = 0; i < history->length; ++i) {
-        history->level[i] = quanta;
-    }
-    history->newest = 0;
-    history->window_sum = quanta * (belt_quanta_t)(history->whole + 1);
+void belt_level_history_begin(belt_level_history_t *history, belt_real_t level) {
+    history->base = in_quanta(history, level);
 }
 
 void belt_level_history_push(belt_level_history_t *history, belt_real_t level) {
-    const belt_quanta_t quanta = in_quanta(history, level);
+    const belt_quanta_t quanta = in_quanta(history, level) - history->base;
     history->window_sum +=
         quanta - history->level[belt_level_history_index(history, history->whole)];
     history->newest = history->newest + 1u;
@@ -49,5 +49,6 @@ belt_real_t belt_level_history_congestion(const belt_level_history_t *history) {
         (belt_real_t)history->window_sum - BELT_HALF * (belt_real_t)(first + last);
     const belt_real_t rest = history->part * ((belt_real_t)last + BELT_HALF * history->part *
                                                                       (belt_real_t)(beyond - last));
-    return (trapezoids + rest) * (history->period * history->quantum);
+    return (trapezoids + rest + (belt_real_t)history->base * history->window) *
+           (history->period * history->quantum);
 }

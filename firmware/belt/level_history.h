@@ -17,6 +17,7 @@
 
 typedef struct {
     belt_quanta_t level[BELT_WINDOW_CAPACITY]; /**< ring of levels [quanta]. */
+    belt_quanta_t base;       /**< first level; all others are kept less it [quanta]. */
     belt_quanta_t window_sum; /**< sum of the whole intervals' levels, newest included [quanta]. */
     uint32_t newest;          /**< index of the latest level. */
     uint32_t length;          /**< levels in use: whole + 2. */
@@ -29,12 +30,12 @@ typedef struct {
     belt_real_t per_part;     /**< quanta in one part [1/parts]. */
 } belt_level_history_t;
 
-/** Prepares an empty history for a checked configuration; fill it before use. */
+/** Prepares a history for a checked configuration: every level 0. O(window). */
 void belt_level_history_init(belt_level_history_t *history, const belt_config_t *config);
 
-/** Makes the whole past equal to one level, 0 <= level <= level_capacity [parts]. O(window): for
- * the first measurement, not for the running task. */
-void belt_level_history_fill(belt_level_history_t *history, belt_real_t level);
+/** Makes the whole past equal to the first level, 0 <= level <= level_capacity [parts]. Once, after
+ * init and before any push. O(1): levels are kept less the first one, and all of them are 0 then. */
+void belt_level_history_begin(belt_level_history_t *history, belt_real_t level);
 
 /** Adds the level of this period, 0 <= level <= level_capacity [parts]. */
 void belt_level_history_push(belt_level_history_t *history, belt_real_t level);
@@ -57,7 +58,8 @@ static inline belt_real_t belt_level_history_at(const belt_level_history_t *hist
     const uint32_t old = (young == 0u) ? history->length - 1u : young - 1u;
     const belt_quanta_t level = history->level[young];
     const belt_real_t between = age - (belt_real_t)(int32_t)periods;
-    return ((belt_real_t)level + between * (belt_real_t)(history->level[old] - level)) *
+    return ((belt_real_t)(history->base + level) +
+            between * (belt_real_t)(history->level[old] - level)) *
            history->quantum;
 }
 

@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "observer.h"
 
+/** A cell that rounding left a hair short of full is full: which period closes it must not hang on
+ * the last bit. */
+#define FULL BELT_REAL(0.99999)
+
 /** A later cut must tell this much more apart: equals stay equal under rounding, in any units. */
 #define BETTER BELT_REAL(1.001)
 /** A cut closer to the inlet end than this is not worth telling the sides apart. */
@@ -55,33 +59,35 @@ belt_real_t belt_observer_rest_of_outlet(const belt_observer_t *observer) {
            observer->step[cell] * gone * (BELT_REAL(1) - cut) / (BELT_REAL(1) - gone);
 }
 
-/** A density as it leaves, when its cell's centre still has `place` spacings to go at `pace`. */
+/** What leaves of a cell in a share of a spacing, when its centre still has `place` spacings to go at
+ * `pace`: integral of the density over the share. `amount` is that integral now. */
 static belt_real_t on_leaving(const belt_observer_t *observer, const belt_line_t *line,
-                              belt_real_t density, belt_real_t place, belt_real_t pace) {
+                              belt_real_t amount, belt_real_t share, belt_real_t place,
+                              belt_real_t pace) {
     if (place <= BELT_REAL(0)) {
-        return density;
+        return amount;
     }
-    const belt_real_t time = place * pace;
-    return density * belt_line_survival(line->loss[0] * time) +
-           line->rework_at_outlet * observer->outlet_density * time;
+    const belt_real_t rework =
+        belt_line_rework(line, BELT_HALF * place) * observer->outlet_density * place * pace;
+    return amount * belt_line_survival(belt_line_loss_sum(line, place) * pace) + rework * share;
 }
 
 /** Mean density that leaves while the belt travels (Mp1), `pace` seconds a spacing. */
 static belt_real_t leaving_density(const belt_observer_t *observer, const belt_line_t *line,
                                    belt_real_t travel, belt_real_t pace) {
     const uint32_t cell = observer->outlet;
-    const belt_real_t reach = observer->gone + travel;
-    const belt_real_t last = (reach < BELT_REAL(1)) ? reach : BELT_REAL(1);
-    const belt_real_t mean =
-        (first_part(observer, cell, last) - first_part(observer, cell, observer->gone));
-    const belt_real_t own =
-        on_leaving(observer, line, mean / travel, BELT_HALF - observer->gone, pace);
-    if (reach <= BELT_REAL(1)) {
-        return own;
+    const belt_real_t gone = observer->gone;
+    const belt_real_t reach = gone + travel;
+    const belt_real_t end = (reach < BELT_REAL(1)) ? reach : BELT_REAL(1);
+    const belt_real_t amount = first_part(observer, cell, end) - first_part(observer, cell, gone);
+    belt_real_t left = on_leaving(observer, line, amount, end - gone, BELT_HALF - gone, pace);
+    if (reach > end) {
+        const uint32_t next = belt_observer_behind(line, cell, 1u);
+        const belt_real_t rest = reach - end;
+        left += on_leaving(observer, line, first_part(observer, next, rest), rest,
+                           BELT_REAL(1.5) - gone, pace);
     }
-    const belt_real_t next =
-        first_part(observer, belt_observer_behind(line, cell, 1u), reach - last);
-    return own + on_leaving(observer, line, next / travel, BELT_HALF, pace);
+    return left / travel;
 }
 
 /** One period's ageing of whole cells, the same for all or different from cell to cell. */
@@ -188,15 +194,19 @@ static void feed(belt_observer_t *observer, const belt_line_t *line, uint32_t op
     observer->density[open] = (present * from + fresh * (to - from)) / to;
 }
 
-/** Ends the open cell at its full width, `time_since` ago; the slot behind it becomes the open one. */
+/** Ends the open cell at its full width; it has travelled `since` spacings more at `pace`. The slot
+ * behind it becomes the open cell. */
 static void close_cell(belt_observer_t *observer, const belt_line_t *line, uint32_t open,
-                       belt_real_t time_since) {
+                       belt_real_t since, belt_real_t pace) {
     const belt_real_t cut = observer->cut[open];
     observer->step[open] = (cut > BELT_REAL(0))
                                ? (observer->density[open] - observer->early) / (BELT_REAL(1) - cut)
                                : BELT_REAL(0);
-    const belt_real_t loss = line->loss[line->node_count - 1] * time_since;
-    observer->density[open] *= belt_line_survival(loss);
+    const belt_real_t time = since * pace;
+    const belt_real_t from_inlet = BELT_HALF + BELT_HALF * since;
+    observer->density[open] =
+        observer->density[open] * belt_line_survival(line->loss[line->node_count - 1] * time) +
+        line->rework_per_spacing * from_inlet * observer->outlet_density * time;
 
     const uint32_t fresh = belt_observer_behind(line, open, 1u);
     observer->outlet = belt_observer_behind(line, observer->outlet, 1u);
@@ -217,14 +227,14 @@ void belt_observer_advance(belt_observer_t *observer, const belt_line_t *line,
 
     const uint32_t open = belt_observer_behind(line, observer->outlet, line->node_count);
     const belt_real_t reach = observer->gone + passage->travel;
-    if (reach < BELT_REAL(1)) {
+    if (reach < FULL) {
         feed(observer, line, open, observer->gone, reach, passage->fed_density, pace);
         observer->gone = reach;
     } else {
-        const belt_real_t rest = reach - BELT_REAL(1);
+        const belt_real_t rest = (reach > BELT_REAL(1)) ? reach - BELT_REAL(1) : BELT_REAL(0);
         const uint32_t fresh = belt_observer_behind(line, open, 1u);
         feed(observer, line, open, observer->gone, BELT_REAL(1), passage->fed_density, pace);
-        close_cell(observer, line, open, rest * pace);
+        close_cell(observer, line, open, rest, pace);
         observer->fed_density = passage->fed_density;
         if (rest > BELT_REAL(0)) {
             feed(observer, line, fresh, BELT_REAL(0), rest, passage->fed_density, pace);

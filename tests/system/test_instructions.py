@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: MIT
+"""What a step costs, in instructions counted one by one: the same figures at every run."""
+
+import json
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from tests.system.runs import hold
+
+TOOL = Path(__file__).resolve().parents[2] / "tools" / "instructions"
+
+
+@pytest.fixture(scope="module")
+def figures():
+    """Runs of 1.5 s: the empty line, the front's arrival and the settled level."""
+    scenarios = ["paper", "heavy_window"]
+    command = [TOOL, "--program", os.environ["BELT_SIM"], "--json", "--scenarios", *scenarios]
+    result = subprocess.run(command, capture_output=True, text=True, timeout=600)
+    assert result.returncode == 0, result.stderr
+    return {(row["scenario"], row["node_count"]): row for row in json.loads(result.stdout)}
+
+
+@pytest.mark.parametrize("scenario", ["paper", "heavy_window"])
+def test_no_step_of_20_nodes_takes_more_than_5000_instructions(scenario, figures):
+    row = figures[scenario, 20]
+    assert row["steps"] == 601
+    # the bar (the aim is 2500); the first step, which fills the speed window, is one of them
+    hold("greatest", row["greatest"], 5000)
+
+
+@pytest.mark.parametrize("scenario", ["paper", "heavy_window"])
+def test_a_step_costs_in_proportion_to_the_nodes(scenario, figures):
+    # the aim is 8.5 (the bar is 16): 8 times the nodes, and what does not depend on them
+    for name in ("mean", "greatest"):
+        hold(name, figures[scenario, 160][name] / figures[scenario, 20][name], 8.5)
+
+
+def test_program_that_is_not_there_is_said_to_fail(tmp_path):
+    command = [TOOL, "--program", tmp_path / "none", "--scenarios", "paper", "--nodes", "20"]
+    result = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    assert result.returncode == 1
+    assert result.stdout == "" and result.stderr.startswith("instructions: ")
