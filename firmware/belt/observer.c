@@ -5,10 +5,15 @@
  * the last bit. */
 #define FULL BELT_REAL(0.99999)
 
-/** A later cut must tell this much more apart: equals stay equal under rounding, in any units. */
-#define BETTER BELT_REAL(1.001)
-/** A cut closer to the inlet end than this is not worth telling the sides apart. */
-#define LATEST_CUT BELT_REAL(0.99)
+/** A cut stays this far from a cell's ends, where its step would be ill-conditioned. */
+#define CUT_MARGIN BELT_REAL(0.0009765625)
+
+/** Nothing is in the open cell yet. */
+static void begin_cell(belt_observer_t *observer) {
+    observer->moment = BELT_REAL(0);
+    observer->jumps = BELT_REAL(0);
+    observer->jumps_place = BELT_REAL(0);
+}
 
 void belt_observer_init(belt_observer_t *observer) {
     for (uint32_t i = 0; i < BELT_CELL_CAPACITY; ++i) {
@@ -20,8 +25,7 @@ void belt_observer_init(belt_observer_t *observer) {
     observer->gone = BELT_REAL(0);
     observer->outlet_density = BELT_REAL(0);
     observer->fed_density = BELT_REAL(0);
-    observer->early = BELT_REAL(0);
-    observer->cut_weight = BELT_REAL(0);
+    begin_cell(observer);
 }
 
 void belt_observer_assume(belt_observer_t *observer, const belt_line_t *line,
@@ -163,45 +167,49 @@ static void age_cells(belt_observer_t *observer, const belt_line_t *line,
     }
 }
 
-/** Takes the start of this period as the open cell's cut, if it tells more apart than the last. */
-static void consider_cut(belt_observer_t *observer, uint32_t open, belt_real_t from,
-                         belt_real_t density) {
-    const belt_real_t jump = density - observer->fed_density;
-    const belt_real_t weight = jump * jump * from * (BELT_REAL(1) - from);
-    if ((weight > BETTER * observer->cut_weight) && (from < LATEST_CUT)) {
-        observer->cut_weight = weight;
-        observer->cut[open] = from;
-        observer->early = observer->density[open];
-    }
-}
-
 /** Fills the open cell from one share to another with material of one density. */
 static void feed(belt_observer_t *observer, const belt_line_t *line, uint32_t open,
                  belt_real_t from, belt_real_t to, belt_real_t density, belt_real_t pace) {
-    consider_cut(observer, open, from, density);
+    const belt_real_t jump = density - observer->fed_density;
+    const belt_real_t weight = jump * jump * from * (BELT_REAL(1) - from);
+    observer->jumps += weight;
+    observer->jumps_place += weight * from;
     /* While the cell fills, its centre moves at half the speed of the belt; what is fed now is
      * taken at the age at which it will pass the place where the centre is at the end. */
     const belt_real_t loss = line->loss[line->node_count - 1] * pace;
     const belt_real_t rework = line->rework_per_spacing * observer->outlet_density * pace;
     const belt_real_t drift = BELT_HALF * (to - from);
     const belt_real_t centre = BELT_HALF * to;
+    const belt_real_t centre_of_fresh = BELT_HALF * (from + to);
     const belt_real_t kept = belt_line_survival(loss * drift);
     const belt_real_t gained = rework * drift * (centre - BELT_HALF * drift);
     const belt_real_t fresh =
         density * belt_line_survival(loss * centre) + BELT_HALF * rework * centre * centre;
     const belt_real_t present = observer->density[open] * kept + gained;
-    observer->early = observer->early * kept + gained;
+    observer->moment = observer->moment * kept + gained * BELT_HALF * from * from +
+                       fresh * centre_of_fresh * (to - from);
     observer->density[open] = (present * from + fresh * (to - from)) / to;
+}
+
+/** Place of the open cell's cut: the centre of its squared jumps, the middle if there are none. */
+static belt_real_t cut_of(const belt_observer_t *observer) {
+    if (!(observer->jumps > BELT_REAL(0))) {
+        return BELT_HALF;
+    }
+    const belt_real_t centre = observer->jumps_place / observer->jumps;
+    const belt_real_t last = BELT_REAL(1) - CUT_MARGIN;
+    const belt_real_t late = (centre < last) ? centre : last;
+    return (late > CUT_MARGIN) ? late : CUT_MARGIN;
 }
 
 /** Ends the open cell at its full width; it has travelled `since` spacings more at `pace`. The slot
  * behind it becomes the open cell. */
 static void close_cell(belt_observer_t *observer, const belt_line_t *line, uint32_t open,
                        belt_real_t since, belt_real_t pace) {
-    const belt_real_t cut = observer->cut[open];
-    observer->step[open] = (cut > BELT_REAL(0))
-                               ? (observer->density[open] - observer->early) / (BELT_REAL(1) - cut)
-                               : BELT_REAL(0);
+    const belt_real_t cut = cut_of(observer);
+    const belt_real_t moment = observer->moment - BELT_HALF * observer->density[open];
+    observer->cut[open] = cut;
+    observer->step[open] = BELT_REAL(2) * moment / (cut * (BELT_REAL(1) - cut));
     const belt_real_t time = since * pace;
     const belt_real_t from_inlet = BELT_HALF + BELT_HALF * since;
     observer->density[open] =
@@ -213,8 +221,7 @@ static void close_cell(belt_observer_t *observer, const belt_line_t *line, uint3
     observer->density[fresh] = BELT_REAL(0);
     observer->step[fresh] = BELT_REAL(0);
     observer->cut[fresh] = BELT_REAL(0);
-    observer->early = BELT_REAL(0);
-    observer->cut_weight = BELT_REAL(0);
+    begin_cell(observer);
 }
 
 void belt_observer_advance(belt_observer_t *observer, const belt_line_t *line,

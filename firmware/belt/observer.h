@@ -14,7 +14,9 @@
  * A cell holds the mean of its material, taken at the age of its centre; so every part fed is in
  * exactly one cell. Where the flux jumped within a cell, the cell also remembers the place of the
  * cut and the step there: inside the belt only the mean counts (to second order), but while the
- * cell leaves the belt the outlet sees first one side of the cut and then the other.
+ * cell leaves the belt the outlet sees first one side of the cut and then the other. The cut is the
+ * centre of the squared jumps: at the jump if there is one, near the middle if the flux changed
+ * evenly; the step is the one that has the cell's first moment.
  *
  * Cost: about 20 instructions a cell and period, some 180 for the ends. Memory: three numbers a cell.
  */
@@ -36,8 +38,11 @@ typedef struct {
                                       has been fed, [0, 1). */
     belt_real_t outlet_density; /**< mean density that left in the last period [parts/m]. */
     belt_real_t fed_density;    /**< density fed in the last period [parts/m]. */
-    belt_real_t early;          /**< open cell: mean density on the outlet side of its cut. */
-    belt_real_t cut_weight;     /**< open cell: how much its cut tells apart; the best so far. */
+    belt_real_t moment;         /**< open cell: integral of density times place in it, the place
+                                      counted from its outlet side. */
+    belt_real_t jumps;       /**< open cell: sum of the squared jumps of the density fed, each times
+                                     its distances to both ends of the cell. */
+    belt_real_t jumps_place; /**< the same, each times its place in the cell. */
 } belt_observer_t;
 
 /** What happened to the belt in one period. */
