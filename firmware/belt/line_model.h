@@ -63,11 +63,17 @@ static inline belt_real_t belt_line_loss_sum(const belt_line_t *line, belt_real_
     return line->loss_sum[node] + (place - (belt_real_t)node) * line->loss[node];
 }
 
-/** exp(-loss), what survives: the series up to the third power, for a loss over at most two spacings,
- * which twice BELT_CHANGE_PER_NODE_MAX bounds. Error below loss^4/24. */
-static inline belt_real_t belt_line_survival(belt_real_t loss) {
+/** 1 - exp(-loss), what is lost: the series up to the third power, for a loss over at most two
+ * spacings, which twice BELT_CHANGE_PER_NODE_MAX bounds. Error below loss^4/24. */
+static inline belt_real_t belt_line_lost(belt_real_t loss) {
     const belt_real_t third = BELT_REAL(1) / BELT_REAL(3);
-    return BELT_REAL(1) - loss * (BELT_REAL(1) - BELT_HALF * loss * (BELT_REAL(1) - third * loss));
+    return loss * (BELT_REAL(1) - BELT_HALF * loss * (BELT_REAL(1) - third * loss));
+}
+
+/** exp(-loss), what survives. Where it is applied period after period, take off what is lost: a
+ * factor so near to 1 would be wrong by the same rounding every time. */
+static inline belt_real_t belt_line_survival(belt_real_t loss) {
+    return BELT_REAL(1) - belt_line_lost(loss);
 }
 
 #endif

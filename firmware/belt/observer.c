@@ -106,7 +106,8 @@ typedef struct {
 static void age_uniform(belt_observer_t *observer, ageing_t ageing) {
     const belt_line_t *line = ageing.line;
     const belt_real_t loss = line->loss_mean * (ageing.time_here + ageing.time_next);
-    const belt_real_t survival = belt_line_survival(loss);
+    const belt_real_t lost = belt_line_lost(loss);
+    const belt_real_t kept = BELT_REAL(1) - lost;
     const belt_real_t rework_less = ageing.rework_less * (BELT_REAL(1) - BELT_HALF * loss);
     belt_real_t rework = ageing.rework * (BELT_REAL(1) - BELT_HALF * loss);
     /* The ring in its two straight runs. */
@@ -115,8 +116,8 @@ static void age_uniform(belt_observer_t *observer, ageing_t ageing) {
     for (int run = 0; run < 2; ++run) {
         const uint32_t end = (to < line->cell_slots) ? to : line->cell_slots;
         for (uint32_t cell = from; cell < end; ++cell) {
-            observer->density[cell] = observer->density[cell] * survival + rework;
-            observer->step[cell] *= survival;
+            observer->density[cell] += rework - observer->density[cell] * lost;
+            observer->step[cell] *= kept;
             rework -= rework_less;
         }
         from = (from > end) ? from - end : 0u;
@@ -132,10 +133,10 @@ static void age_profile(belt_observer_t *observer, ageing_t ageing) {
         cell = belt_observer_behind(line, cell, 1u);
         const belt_real_t loss =
             ageing.time_here * line->loss[i] + ageing.time_next * line->loss[i - 1];
-        const belt_real_t survival = belt_line_survival(loss);
-        observer->density[cell] =
-            observer->density[cell] * survival + rework * (BELT_REAL(1) - BELT_HALF * loss);
-        observer->step[cell] *= survival;
+        const belt_real_t lost = belt_line_lost(loss);
+        observer->density[cell] +=
+            rework * (BELT_REAL(1) - BELT_HALF * loss) - observer->density[cell] * lost;
+        observer->step[cell] *= BELT_REAL(1) - lost;
         rework -= ageing.rework_less;
     }
 }

@@ -36,9 +36,9 @@ def test_float32_step_is_the_double_step(scenario):
     double = commands("BELT_REPLAY_F64", scenario, rows)
     # the replay is the run: only then is what follows said of the run
     assert np.array_equal(single, found["inlet_flux"])
-    # the bar (the aim is 1e-5): what rounding of the predicted level, 1e-7, makes of a flux whose
-    # law is as steep as 22/s; a window of 1200 levels adds as much again
-    hold("share of the peak", greatest(single - double) / greatest(single), 5e-5)
+    # the aim (the bar is 5e-5): what rounding of the predicted level, some 2e-7, makes of a flux
+    # whose law is as steep as 22/s and whose losses are made up for on top
+    hold("share of the peak", greatest(single - double) / greatest(single), 1e-5)
 
 
 def test_replay_that_differs_in_one_input_differs_in_its_command():

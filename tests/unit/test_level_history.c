@@ -71,6 +71,14 @@ static void test_one_quantum_is_a_small_share_of_the_capacity(void) {
     TEST_ASSERT_TRUE((double)history.quantum > 0.0);
 }
 
+static void test_levels_are_rounded_to_the_nearest_quantum(void) {
+    const double quantum = (double)history.quantum;
+    belt_level_history_push(&history, BELT_REAL(1000.75 * quantum));
+    TEST_ASSERT_DOUBLE_WITHIN(0.01 * quantum, 1001.0 * quantum, level_at(0));
+    belt_level_history_push(&history, BELT_REAL(1000.25 * quantum));
+    TEST_ASSERT_DOUBLE_WITHIN(0.01 * quantum, 1000.0 * quantum, level_at(0));
+}
+
 /* --- congestion --- */
 
 static void test_empty_history_has_no_congestion(void) {
@@ -80,8 +88,8 @@ static void test_empty_history_has_no_congestion(void) {
 static void test_constant_level_gives_level_times_window(void) {
     const double windows[] = {0.0025, 0.003, 0.00499, 0.2, 0.2001, 0.2012, 0.5};
     for (size_t i = 0; i < sizeof windows / sizeof windows[0]; ++i) {
-        begin(windows[i], 0.0025);
         for (int level = 0; level <= 8; ++level) {
+            begin(windows[i], 0.0025);
             belt_level_history_begin(&history, BELT_REAL(0.125 * level));
             const double truth = 0.125 * level * windows[i];
             TEST_ASSERT_DOUBLE_WITHIN(tolerance(truth), truth, congestion());
@@ -252,11 +260,39 @@ static void test_first_level_is_what_pushing_it_long_enough_leads_to(void) {
     }
 }
 
+static void test_first_level_is_forgotten_once_it_has_left_the_window(void) {
+    static belt_level_history_t other;
+    uint64_t random = 31u;
+    belt_level_history_init(&other, &config);
+    belt_level_history_begin(&history, BELT_REAL(1));
+    belt_level_history_begin(&other, BELT_REAL(0));
+    for (int i = 0; i < 1000; ++i) {
+        const belt_real_t level = random_share(&random);
+        belt_level_history_push(&history, level);
+        belt_level_history_push(&other, level);
+    }
+    for (int age = 0; age <= 80; ++age) {
+        /* Quanta are whole numbers: less the first level and back again they are the same. */
+        TEST_ASSERT_TRUE(level_at(age) == (double)belt_level_history_at(&other, BELT_REAL(age)));
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(tolerance(0.2), (double)belt_level_history_congestion(&other),
+                              congestion());
+}
+
+static void test_change_over_the_whole_range_does_not_overflow_the_sum(void) {
+    belt_level_history_begin(&history, config.level_capacity);
+    push_ramp(0.0, 0.0, 500);
+    TEST_ASSERT_DOUBLE_WITHIN(tolerance(0.2), 0.0, congestion());
+    push_ramp(1.0, 0.0, 500);
+    TEST_ASSERT_DOUBLE_WITHIN(tolerance(0.2), 0.2, congestion());
+}
+
 int main(void) {
     UNITY_BEGIN();
     RUN_TEST(test_window_of_whole_periods_counts_them);
     RUN_TEST(test_window_that_rounding_left_short_of_whole_periods_counts_them_too);
     RUN_TEST(test_one_quantum_is_a_small_share_of_the_capacity);
+    RUN_TEST(test_levels_are_rounded_to_the_nearest_quantum);
     RUN_TEST(test_empty_history_has_no_congestion);
     RUN_TEST(test_constant_level_gives_level_times_window);
     RUN_TEST(test_full_buffer_does_not_overflow_the_sum);
@@ -275,5 +311,7 @@ int main(void) {
     RUN_TEST(test_change_of_congestion_is_what_enters_less_what_leaves);
     RUN_TEST(test_first_level_is_the_whole_past);
     RUN_TEST(test_first_level_is_what_pushing_it_long_enough_leads_to);
+    RUN_TEST(test_first_level_is_forgotten_once_it_has_left_the_window);
+    RUN_TEST(test_change_over_the_whole_range_does_not_overflow_the_sum);
     return UNITY_END();
 }
