@@ -102,7 +102,10 @@ static bool change_setpoint(loop_t *loop, size_t k, FILE *messages) {
         if (status != BELT_OK) {
             belt_config_t config = loop->controller.config;
             config.level_setpoint = model_real(level);
-            model_print_refusals(&config, scenario->name, messages);
+            char name[256];
+            (void)snprintf(name, sizeof name, "%s: run.setpoint_levels, at %.9g s", scenario->name,
+                           scenario->run.setpoint_times[loop->setpoints_done]);
+            model_print_refusals(&config, name, messages);
             return false;
         }
         loop->open_loop_flux = equilibrium_of(&scenario->line, level).inlet_flux;

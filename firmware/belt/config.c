@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "config.h"
 
+#include "exponential.h"
+
 static belt_real_t least(belt_real_t a, belt_real_t b) {
     return (a < b) ? a : b;
 }
@@ -47,13 +49,26 @@ belt_real_t belt_config_slope(const belt_config_t *config) {
                : belt_config_slope_min(config) + config->slope;
 }
 
-/** 1 + tau Qmax/congestion_scale: how many times slower the fullest line is than the empty one. */
-static belt_real_t slowdown_max(const belt_config_t *config) {
+belt_real_t belt_config_slowdown_max(const belt_config_t *config) {
     return BELT_REAL(1) + config->speed_window * config->level_capacity / config->congestion_scale;
 }
 
 belt_real_t belt_config_dead_time_max(const belt_config_t *config) {
-    return config->processing_time * config->belt_length * slowdown_max(config);
+    return config->processing_time * config->belt_length * belt_config_slowdown_max(config);
+}
+
+belt_real_t belt_config_loss_exponent(const belt_config_t *config) {
+    return mean_loss_rate(config) * belt_config_dead_time_max(config);
+}
+
+belt_real_t belt_config_flux_bound(const belt_config_t *config) {
+    const belt_real_t survival = BELT_REAL(1) + belt_expm1(-belt_config_loss_exponent(config));
+    return BELT_REAL(10) * config->nominal_flux_max * belt_config_slowdown_max(config) / survival;
+}
+
+belt_real_t belt_config_density_bound(const belt_config_t *config) {
+    return belt_config_flux_bound(config) * config->processing_time *
+           belt_config_slowdown_max(config);
 }
 
 static belt_rule_t closed(belt_real_t lower, belt_real_t value, belt_real_t upper) {
@@ -110,12 +125,21 @@ static belt_rule_t discretisation_rule(const belt_config_t *config, belt_status_
             return at_most(belt_config_dead_time_max(config) / config->period,
                            BELT_REAL(BELT_DEAD_TIME_PERIODS));
         case BELT_LOSS_EXPONENT:
-            return at_most(mean_loss_rate(config) * belt_config_dead_time_max(config),
-                           BELT_LOSS_EXPONENT_MAX);
+            return at_most(belt_config_loss_exponent(config), BELT_LOSS_EXPONENT_MAX);
         case BELT_LOSS_PER_NODE:
             return at_most(worst_loss_rate(config) * dwell_max, BELT_CHANGE_PER_NODE_MAX);
-        default:
+        case BELT_REWORK_PER_NODE:
             return at_most(config->rework_rate * config->belt_length * dwell_max,
+                           BELT_CHANGE_PER_NODE_MAX);
+        case BELT_REWORK_GAIN: /* A*(D - x) over the belt at its slowest */
+            return at_most(BELT_HALF * config->rework_rate * config->belt_length *
+                               belt_config_dead_time_max(config),
+                           BELT_REWORK_GAIN_MAX);
+        case BELT_SERVICE_PER_NODE:
+            return at_most(dwell_max / config->service_time, BELT_SERVICE_PER_NODE_MAX);
+        default: /* slowness gained on one spacing over slowness, with a full buffer */
+            return at_most(config->level_capacity * config->processing_time * config->belt_length /
+                               (config->congestion_scale * nodes),
                            BELT_CHANGE_PER_NODE_MAX);
     }
 }
@@ -129,7 +153,9 @@ static belt_rule_t law_rule(const belt_config_t *config, belt_status_t code) {
                     config->connectivity);
         case BELT_LEVEL_SETPOINT: {
             belt_rule_t rule = above(BELT_REAL(0), config->level_setpoint);
-            rule.upper = config->connectivity * config->nominal_flux_max * config->service_time;
+            /* A few roundings below alpha*Bmax*service_time, so that the flux stays below Bmax. */
+            rule.upper = (BELT_REAL(1) - BELT_REAL(8) * BELT_REAL_EPSILON) * config->connectivity *
+                         config->nominal_flux_max * config->service_time;
             rule.upper_open = true;
             return rule;
         }
@@ -154,7 +180,7 @@ belt_rule_t belt_config_rule(const belt_config_t *config, belt_status_t code) {
     if (code <= BELT_LOSS_RATE) {
         return line_rule(config, code);
     }
-    if (code <= BELT_REWORK_PER_NODE) {
+    if (code <= BELT_CONGESTION_PER_NODE) {
         return discretisation_rule(config, code);
     }
     return law_rule(config, code);

@@ -22,6 +22,11 @@
 #define BELT_LOSS_EXPONENT_MAX BELT_REAL(10)
 /** Greatest loss and rework while passing one node spacing: the march is of second order in them. */
 #define BELT_CHANGE_PER_NODE_MAX BELT_REAL(0.25)
+/** Greatest share of service_time that one node spacing takes: the march steps over two. */
+#define BELT_SERVICE_PER_NODE_MAX BELT_REAL(0.5)
+/** Greatest share of the density leaving that rework puts back, losses left aside: at 1 the belt
+ * fills by itself. */
+#define BELT_REWORK_GAIN_MAX BELT_REAL(0.9)
 /** Greatest alpha S period: from 1 on the held command overshoots the law it samples. */
 #define BELT_SLOPE_PERIODS_MAX BELT_HALF
 /** inlet_flux_max of an actuator without a limit. */
@@ -46,7 +51,7 @@ typedef struct {
     belt_real_t congestion_scale; /**< congestion at which the speed is halved [parts s]; 1 in the
                                        paper. */
     belt_real_t connectivity;     /**< alpha: share of the outlet flux that reaches the buffer,
-                                       0 < alpha <= 1. */
+                                       BELT_DIMENSION_MIN ... 1. */
     belt_real_t service_rate_max; /**< mu: greatest rate of service [parts/s]. */
     belt_real_t service_time;   /**< service is level/service_time up to mu [s]; 1 in the paper. */
     belt_real_t level_capacity; /**< Qmax: parts that the buffer holds. */
@@ -100,6 +105,20 @@ belt_real_t belt_config_slope(const belt_config_t *config);
 
 /** Q* / (alpha service_time): the flux that holds the set-point once it arrives [parts/s]. */
 belt_real_t belt_config_setpoint_flux(const belt_config_t *config);
+
+/** 1 + tau Qmax/congestion_scale: how many times slower the fullest line is than the empty one. */
+belt_real_t belt_config_slowdown_max(const belt_config_t *config);
+
+/** Mean of C(x) along the belt times the longest dead time: exponent of the greatest 1/survival. */
+belt_real_t belt_config_loss_exponent(const belt_config_t *config);
+
+/** A flux that no sound line can pass: ten times the greatest that the law can ask for, all losses
+ * made up for and the line at its slowest when it arrives [parts/s]. */
+belt_real_t belt_config_flux_bound(const belt_config_t *config);
+
+/** The density of that flux at the slowest speed; rework, which at most makes ten of one, stays below
+ * it too [parts/m]. */
+belt_real_t belt_config_density_bound(const belt_config_t *config);
 
 /** P D (1 + tau Qmax/congestion_scale): dead time of the fullest line [s]. */
 belt_real_t belt_config_dead_time_max(const belt_config_t *config);

@@ -52,12 +52,13 @@ static inline uint32_t belt_level_history_index(const belt_level_history_t *hist
 /** Level `age` periods ago, 0 <= age <= window, linear between periods [parts]. */
 static inline belt_real_t belt_level_history_at(const belt_level_history_t *history,
                                                 belt_real_t age) {
-    const uint32_t whole = (uint32_t)(int32_t)age;
+    const belt_real_t within = (age < history->window) ? age : history->window;
+    const uint32_t whole = (uint32_t)(int32_t)within;
     const uint32_t periods = (whole < history->whole) ? whole : history->whole;
     const uint32_t young = belt_level_history_index(history, periods);
     const uint32_t old = (young == 0u) ? history->length - 1u : young - 1u;
     const belt_quanta_t level = history->level[young];
-    const belt_real_t between = age - (belt_real_t)(int32_t)periods;
+    const belt_real_t between = within - (belt_real_t)(int32_t)periods;
     return ((belt_real_t)(history->base + level) +
             between * (belt_real_t)(history->level[old] - level)) *
            history->quantum;

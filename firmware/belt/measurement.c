@@ -2,11 +2,8 @@
 #include "measurement.h"
 
 belt_bounds_t belt_measurement_bounds(const belt_config_t *config) {
-    belt_bounds_t bounds;
-    bounds.flux = BELT_REAL(1000) * config->nominal_flux_max;
-    bounds.density =
-        bounds.flux * config->processing_time *
-        (BELT_REAL(1) + config->speed_window * config->level_capacity / config->congestion_scale);
+    const belt_bounds_t bounds = {belt_config_flux_bound(config),
+                                  belt_config_density_bound(config)};
     return bounds;
 }
 

@@ -58,8 +58,7 @@ typedef struct {
     belt_real_t density; /**< [parts/m]. */
 } belt_bounds_t;
 
-/** The bounds of a checked configuration: a thousand times the greatest flux the law can ask for
- * before losses are made up, and the density of that flux at the slowest speed. */
+/** The bounds of a checked configuration, belt_config_flux_bound() and ..._density_bound(). */
 belt_bounds_t belt_measurement_bounds(const belt_config_t *config);
 
 /** Sorts one period's inputs; `last` is what was trusted before, `command` the last command. */

@@ -40,6 +40,12 @@ void belt_observer_assume(belt_observer_t *observer, const belt_line_t *line,
     observer->fed_density = density[line->node_count];
 }
 
+/** A number in its limits; one that is none is the lower limit. */
+static belt_real_t between(belt_real_t lower, belt_real_t value, belt_real_t upper) {
+    const belt_real_t high_enough = (value > lower) ? value : lower;
+    return (high_enough < upper) ? high_enough : upper;
+}
+
 /** Density on the outlet side of a cell's cut. */
 static belt_real_t outlet_side(const belt_observer_t *observer, uint32_t cell) {
     return observer->density[cell] - observer->step[cell] * (BELT_REAL(1) - observer->cut[cell]);
@@ -208,9 +214,11 @@ static belt_real_t cut_of(const belt_observer_t *observer) {
 static void close_cell(belt_observer_t *observer, const belt_line_t *line, uint32_t open,
                        belt_real_t since, belt_real_t pace) {
     const belt_real_t cut = cut_of(observer);
-    const belt_real_t moment = observer->moment - BELT_HALF * observer->density[open];
+    const belt_real_t mean = observer->density[open];
+    const belt_real_t moment = observer->moment - BELT_HALF * mean;
+    const belt_real_t step = BELT_REAL(2) * moment / (cut * (BELT_REAL(1) - cut));
     observer->cut[open] = cut;
-    observer->step[open] = BELT_REAL(2) * moment / (cut * (BELT_REAL(1) - cut));
+    observer->step[open] = between(-mean / cut, step, mean / (BELT_REAL(1) - cut));
     const belt_real_t time = since * pace;
     const belt_real_t from_inlet = BELT_HALF + BELT_HALF * since;
     observer->density[open] =
@@ -228,9 +236,10 @@ static void close_cell(belt_observer_t *observer, const belt_line_t *line, uint3
 void belt_observer_advance(belt_observer_t *observer, const belt_line_t *line,
                            const belt_passage_t *passage) {
     const belt_real_t pace = passage->duration / passage->travel;
-    observer->outlet_density = passage->left_is_measured
-                                   ? passage->left_density
-                                   : leaving_density(observer, line, passage->travel, pace);
+    const belt_real_t left = passage->left_is_measured
+                                 ? passage->left_density
+                                 : leaving_density(observer, line, passage->travel, pace);
+    observer->outlet_density = between(BELT_REAL(0), left, line->density_max);
     age_cells(observer, line, passage, pace);
 
     const uint32_t open = belt_observer_behind(line, observer->outlet, line->node_count);

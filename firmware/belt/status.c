@@ -25,6 +25,9 @@ const char *belt_status_name(belt_status_t status) {
         case BELT_LOSS_EXPONENT: name = "BELT_LOSS_EXPONENT"; break;
         case BELT_LOSS_PER_NODE: name = "BELT_LOSS_PER_NODE"; break;
         case BELT_REWORK_PER_NODE: name = "BELT_REWORK_PER_NODE"; break;
+        case BELT_REWORK_GAIN: name = "BELT_REWORK_GAIN"; break;
+        case BELT_SERVICE_PER_NODE: name = "BELT_SERVICE_PER_NODE"; break;
+        case BELT_CONGESTION_PER_NODE: name = "BELT_CONGESTION_PER_NODE"; break;
         case BELT_NOMINAL_FLUX_MAX: name = "BELT_NOMINAL_FLUX_MAX"; break;
         case BELT_LEVEL_SETPOINT: name = "BELT_LEVEL_SETPOINT"; break;
         case BELT_SLOPE_KIND: name = "BELT_SLOPE_KIND"; break;

@@ -20,6 +20,12 @@
 #ifdef __FAST_MATH__
 #error "belt: -ffast-math removes the checks for NaN and changes the bits; compile without it"
 #endif
+#if defined(__FINITE_MATH_ONLY__) && (__FINITE_MATH_ONLY__ > 0)
+#error "belt: -ffinite-math-only removes the checks for NaN; compile without it"
+#endif
+#if defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
+#error "belt: -funsafe-math-optimizations and its parts change the bits; compile without them"
+#endif
 
 #ifndef BELT_REAL_IS_DOUBLE
 #define BELT_REAL_IS_DOUBLE 0
@@ -88,7 +94,7 @@ typedef enum {
     BELT_PROCESSING_TIME,  /**< processing_time is a number in its range. */
     BELT_SPEED_WINDOW,     /**< speed_window is a number in its range. */
     BELT_CONGESTION_SCALE, /**< congestion_scale is a number in its range. */
-    BELT_CONNECTIVITY,     /**< 0 < connectivity <= 1. */
+    BELT_CONNECTIVITY,     /**< BELT_DIMENSION_MIN <= connectivity <= 1. */
     BELT_SERVICE_RATE_MAX, /**< service_rate_max is a number in its range. */
     BELT_SERVICE_TIME,     /**< service_time is a number in its range. */
     BELT_LEVEL_CAPACITY,   /**< level_capacity is a number in its range. */
@@ -106,9 +112,13 @@ typedef enum {
     BELT_LOSS_EXPONENT,   /**< 1/survival stays below exp(BELT_LOSS_EXPONENT_MAX). */
     BELT_LOSS_PER_NODE,   /**< loss while passing one node spacing is small: raise node_count. */
     BELT_REWORK_PER_NODE, /**< rework while passing one spacing is small: raise node_count. */
+    BELT_REWORK_GAIN,     /**< less comes back than has left, or the line itself runs away. */
+    BELT_SERVICE_PER_NODE, /**< the buffer changes little while one spacing passes: raise node_count. */
+    BELT_CONGESTION_PER_NODE, /**< so does the speed: raise node_count. */
 
     /* Rules of the law. */
-    BELT_NOMINAL_FLUX_MAX, /**< 0 < nominal_flux_max <= min(Qmax/service_time, mu)/alpha. */
+    BELT_NOMINAL_FLUX_MAX, /**< BELT_DIMENSION_MIN <= nominal_flux_max <= min(Qmax/service_time,
+                                  mu)/alpha. */
     BELT_LEVEL_SETPOINT,   /**< 0 < level_setpoint < alpha Bmax service_time. */
     BELT_SLOPE_KIND,       /**< slope_kind is one of its words. */
     BELT_SETPOINT_SLOPE,   /**< S > Smin, strictly. */

@@ -27,6 +27,8 @@ def test_front_door_compiles_by_itself():
     "option, message",
     [
         ("-ffast-math", "-ffast-math removes the checks for NaN"),
+        ("-ffinite-math-only", "-ffinite-math-only removes the checks for NaN"),
+        ("-funsafe-math-optimizations", "-funsafe-math-optimizations and its parts"),
         ("-DBELT_NODE_CAPACITY=3", "BELT_NODE_CAPACITY must lie in"),
         ("-DBELT_NODE_CAPACITY=1025", "BELT_NODE_CAPACITY must lie in"),
         ("-DBELT_WINDOW_CAPACITY=3", "BELT_WINDOW_CAPACITY must lie in"),

@@ -371,13 +371,14 @@ static void test_a_long_rest_leaves_no_trace(void) {
         measurement.level = BELT_REAL(0);
         TEST_ASSERT_EQUAL(BELT_OK, belt_step(&rested, &measurement, &of_rested));
     }
-    /* From here on both see the same, and the same comes out, to a rounding of the greatest flux, 2:
-     * rest is a cycle of the last bits of the densities. 16,000 spacings of drift would show. */
+    /* From here on both see the same, and the same comes out: rest is a cycle of the last bits of the
+     * densities, three roundings wide, and the law's slope over the survival makes 50 of one. Over
+     * 16,000 spacings a drift by a rounding each would be 100 times the limit. */
     for (int i = 0; i < 500; ++i) {
         measurement.level = BELT_REAL(0.5 + 0.5 * sin(0.02 * i));
         TEST_ASSERT_EQUAL(BELT_OK, belt_step(&rested, &measurement, &of_rested));
         TEST_ASSERT_EQUAL(BELT_OK, belt_step(&controller, &measurement, &command));
-        TEST_ASSERT_DOUBLE_WITHIN(EPSILON, (double)command.inlet_flux,
+        TEST_ASSERT_DOUBLE_WITHIN(150 * EPSILON, (double)command.inlet_flux,
                                   (double)of_rested.inlet_flux);
         TEST_ASSERT_TRUE(of_rested.inlet_flux >= BELT_REAL(0));
     }

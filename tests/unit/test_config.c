@@ -114,6 +114,12 @@ static void break_rule(belt_status_t code) {
         case BELT_LOSS_EXPONENT: config.loss_rate[0] = BELT_REAL(17); break;
         case BELT_LOSS_PER_NODE: config.loss_rate[0] = BELT_REAL(9); break;
         case BELT_REWORK_PER_NODE: config.rework_rate = BELT_REAL(5); break;
+        case BELT_REWORK_GAIN: config.rework_rate = BELT_REAL(3); break;
+        case BELT_SERVICE_PER_NODE: config.service_time = BELT_REAL(0.05); break;
+        case BELT_CONGESTION_PER_NODE: /* the dead time stays what it is */
+            config.congestion_scale = BELT_REAL(0.09);
+            config.speed_window = BELT_REAL(0.018);
+            break;
         case BELT_NOMINAL_FLUX_MAX: config.nominal_flux_max = none; break;
         case BELT_LEVEL_SETPOINT: config.level_setpoint = none; break;
         case BELT_SLOPE_KIND: config.slope_kind = (belt_slope_kind_t)2; break;
@@ -231,18 +237,19 @@ static void test_dimensions_lie_between_a_millionth_and_a_million(void) {
 }
 
 static void test_limits_of_the_law_follow_from_the_line(void) {
-    /* Bmax <= min(Qmax/service_time, mu)/alpha = 0.8/0.5; Q* < alpha*Bmax*service_time = 0.6. */
+    /* Bmax <= min(Qmax/service_time, mu)/alpha = 0.8/0.5; Q* < alpha*Bmax*service_time = 0.6, and
+     * eight roundings below it for the flux to stay below Bmax. */
     const belt_rule_t flux = belt_config_rule(&config, BELT_NOMINAL_FLUX_MAX);
     TEST_ASSERT_DOUBLE_WITHIN(4 * EPSILON * 1.6, 1.6, (double)flux.upper);
     const belt_rule_t setpoint = belt_config_rule(&config, BELT_LEVEL_SETPOINT);
-    TEST_ASSERT_DOUBLE_WITHIN(4 * EPSILON * 0.6, 0.6, (double)setpoint.upper);
+    TEST_ASSERT_DOUBLE_WITHIN(4 * EPSILON * 0.6, 0.6 * (1 - 8 * EPSILON), (double)setpoint.upper);
     TEST_ASSERT_TRUE(setpoint.lower_open && setpoint.upper_open);
 
     config.service_time = BELT_REAL(2); /* now Qmax/service_time = 0.5 is the lesser */
     const belt_rule_t slower = belt_config_rule(&config, BELT_NOMINAL_FLUX_MAX);
     TEST_ASSERT_DOUBLE_WITHIN(4 * EPSILON, 1.0, (double)slower.upper);
     const belt_rule_t longer = belt_config_rule(&config, BELT_LEVEL_SETPOINT);
-    TEST_ASSERT_DOUBLE_WITHIN(4 * EPSILON * 1.2, 1.2, (double)longer.upper);
+    TEST_ASSERT_DOUBLE_WITHIN(4 * EPSILON * 1.2, 1.2 * (1 - 8 * EPSILON), (double)longer.upper);
 }
 
 static void test_values_of_the_discretisation_rules(void) {
@@ -331,8 +338,9 @@ static void test_dead_time_may_be_its_greatest_number_of_periods_and_not_more(vo
     make_dyadic();
     config.loss_rate[0] = BELT_REAL(0);
     config.rework_rate = BELT_REAL(0);
-    config.speed_window = BELT_REAL(63) * config.period;
-    config.congestion_scale = config.period; /* dead time 0.5*(1 + 63) */
+    config.node_count = 128;
+    config.congestion_scale = BELT_REAL(8) * config.period;
+    config.speed_window = BELT_REAL(63) * config.congestion_scale; /* dead time 0.5*(1 + 63) */
     assert_breaks_nothing_but(BELT_OK);
     TEST_ASSERT_TRUE(belt_config_rule(&config, BELT_DEAD_TIME).value == BELT_REAL(8192));
     config.processing_time = real_next(config.processing_time, BELT_REAL(1));
@@ -361,11 +369,38 @@ static void test_loss_of_a_node_spacing_may_be_a_quarter_and_not_more(void) {
 
 static void test_rework_of_a_node_spacing_may_be_a_quarter_and_not_more(void) {
     make_dyadic();
-    config.congestion_scale = BELT_REAL(0.25);
-    config.rework_rate = BELT_REAL(2); /* times the belt's length: 4 */
+    config.node_count = 4; /* the longest dead time is 1, of which a node has 1/4 */
+    config.speed_window = BELT_REAL(0.5);
+    config.congestion_scale = BELT_REAL(0.5);
+    config.rework_rate = BELT_REAL(0.5); /* times the belt's length: 1 */
     assert_breaks_nothing_but(BELT_OK);
     config.rework_rate = real_next(config.rework_rate, BELT_REAL(100));
     assert_breaks_nothing_but(BELT_REWORK_PER_NODE);
+}
+
+static void test_rework_must_not_fill_the_belt_by_itself(void) {
+    /* A*D*T/2 = 0.6*A, at most 0.9. */
+    config.rework_rate = BELT_REAL(1.499);
+    assert_breaks_nothing_but(BELT_OK);
+    config.rework_rate = BELT_REAL(1.501);
+    assert_breaks_nothing_but(BELT_REWORK_GAIN);
+}
+
+static void test_buffer_may_change_by_half_while_a_node_spacing_passes(void) {
+    /* T/node_count = 0.03, at most half the service time; the set-point below alpha*Bmax*that. */
+    config.level_setpoint = BELT_REAL(0.01);
+    config.service_time = BELT_REAL(0.0601);
+    assert_breaks_nothing_but(BELT_OK);
+    config.service_time = BELT_REAL(0.0599);
+    assert_breaks_nothing_but(BELT_SERVICE_PER_NODE);
+}
+
+static void test_speed_may_change_by_a_quarter_while_a_node_spacing_passes(void) {
+    /* Qmax*P*D/(congestion_scale*node_count) = 0.025/congestion_scale, at most 0.25. */
+    config.congestion_scale = BELT_REAL(0.1001);
+    assert_breaks_nothing_but(BELT_OK);
+    config.congestion_scale = BELT_REAL(0.0999);
+    assert_breaks_nothing_but(BELT_CONGESTION_PER_NODE);
 }
 
 static void test_slope_must_exceed_the_least_one_strictly(void) {
@@ -552,6 +587,9 @@ int main(void) {
     RUN_TEST(test_loss_exponent_may_be_ten_and_not_more);
     RUN_TEST(test_loss_of_a_node_spacing_may_be_a_quarter_and_not_more);
     RUN_TEST(test_rework_of_a_node_spacing_may_be_a_quarter_and_not_more);
+    RUN_TEST(test_rework_must_not_fill_the_belt_by_itself);
+    RUN_TEST(test_buffer_may_change_by_half_while_a_node_spacing_passes);
+    RUN_TEST(test_speed_may_change_by_a_quarter_while_a_node_spacing_passes);
     RUN_TEST(test_slope_must_exceed_the_least_one_strictly);
     RUN_TEST(test_margin_that_rounding_swallows_is_no_margin);
     RUN_TEST(test_slope_times_period_may_be_one_half_and_not_more);

@@ -3,6 +3,8 @@
 
 #include "paper_case.h"
 #include "reals.h"
+#include <math.h>
+
 #include "unity.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
@@ -59,18 +61,28 @@ static void store(belt_real_t *place, uint64_t bits) {
 
 /* --- bounds --- */
 
-static void test_bounds_are_a_thousand_times_what_the_law_can_ask_for(void) {
-    /* 1000*1.2; times 0.25*(1 + 0.2*1/1). Five roundings at most. */
-    TEST_ASSERT_DOUBLE_WITHIN(5 * EPSILON * 1200.0, 1200.0, (double)bounds.flux);
-    TEST_ASSERT_DOUBLE_WITHIN(5 * EPSILON * 360.0, 360.0, (double)bounds.density);
+static void test_bounds_are_ten_times_what_the_law_can_ask_for(void) {
+    /* 1.2 at the outlet, the line 1 + 0.2*1/1 times slower then, a loss of 1 over 0.6 s made up for;
+     * as a density times 0.25*1.2. Five roundings at most, and 2 of the exponential. */
+    const double flux = 10 * 1.2 * 1.2 * exp(0.6);
+    TEST_ASSERT_DOUBLE_WITHIN(8 * EPSILON * flux, flux, (double)bounds.flux);
+    TEST_ASSERT_DOUBLE_WITHIN(10 * EPSILON * flux * 0.3, flux * 0.3, (double)bounds.density);
 }
 
-static void test_bound_of_the_density_grows_with_the_congestion_the_line_can_have(void) {
+static void test_bounds_grow_with_the_congestion_the_line_can_have(void) {
     config.congestion_scale = BELT_REAL(0.1);
     config.level_capacity = BELT_REAL(2);
-    /* 1200*0.25*(1 + 0.2*2/0.1) */
-    TEST_ASSERT_DOUBLE_WITHIN(5 * EPSILON * 1500.0, 1500.0,
+    /* 1 + 0.2*2/0.1 times slower: 2.5 s. The exponent's own roundings count 2.5 times. */
+    const double most = 10 * 1.2 * 5 * exp(2.5) * 0.25 * 5;
+    TEST_ASSERT_DOUBLE_WITHIN(20 * EPSILON * most, most,
                               (double)belt_measurement_bounds(&config).density);
+}
+
+static void test_the_most_that_losses_can_make_the_law_ask_for_is_sound(void) {
+    /* 1/survival = exp(9.9): what is fed then is more than 10,000 times what arrives. */
+    config.loss_rate[0] = BELT_REAL(16.5);
+    const double most = 1.2 * exp(16.5 * 0.6);
+    TEST_ASSERT_TRUE((double)belt_measurement_bounds(&config).flux > 9 * most);
 }
 
 /* --- what is sound passes --- */
@@ -320,8 +332,9 @@ static void test_whatever_the_bits_what_passes_is_in_range(void) {
 
 int main(void) {
     UNITY_BEGIN();
-    RUN_TEST(test_bounds_are_a_thousand_times_what_the_law_can_ask_for);
-    RUN_TEST(test_bound_of_the_density_grows_with_the_congestion_the_line_can_have);
+    RUN_TEST(test_bounds_are_ten_times_what_the_law_can_ask_for);
+    RUN_TEST(test_the_most_that_losses_can_make_the_law_ask_for_is_sound);
+    RUN_TEST(test_bounds_grow_with_the_congestion_the_line_can_have);
     RUN_TEST(test_sound_inputs_pass_unchanged);
     RUN_TEST(test_limits_themselves_are_sound);
     RUN_TEST(test_negative_zero_and_subnormal_numbers_are_sound);
