@@ -497,6 +497,35 @@ static void test_assumed_profile_replaces_all_that_was_known(void) {
     }
 }
 
+/* --- nothing leaves its bounds --- */
+
+static void test_line_that_runs_away_stays_finite(void) {
+    config.rework_rate = BELT_REAL(4); /* twice of what leaves comes back: no rule would have it */
+    begin();
+    for (int i = 0; i < 40000; ++i) {
+        advance(0.5, 1.0);
+        TEST_ASSERT_TRUE(observer.outlet_density >= BELT_REAL(0));
+        TEST_ASSERT_TRUE(observer.outlet_density <= line.density_max);
+    }
+    TEST_ASSERT_TRUE(observer.outlet_density >= BELT_HALF * line.density_max);
+}
+
+static void test_outlet_density_that_is_no_number_is_none_at_all(void) {
+    advance_measured(0.025, 0.5, 1.0, (double)NAN);
+    TEST_ASSERT_TRUE(observer.outlet_density == BELT_REAL(0));
+}
+
+static void test_neither_side_of_a_cut_is_below_zero(void) {
+    uint64_t state = 20260101u;
+    for (int i = 0; i < 20000; ++i) {
+        state = state * 6364136223846793005u + 1442695040888963407u;
+        advance(0.03 + 0.4 * (double)(state >> 40) / (double)(1 << 24),
+                (double)((state >> 33) & 1u));
+        TEST_ASSERT_TRUE(observer.outlet_density >= BELT_REAL(0));
+        TEST_ASSERT_TRUE(belt_observer_rest_of_outlet(&observer) >= -BELT_REAL(EPSILON));
+    }
+}
+
 int main(void) {
     UNITY_BEGIN();
     RUN_TEST(test_every_part_fed_lies_on_the_belt_or_has_left);
@@ -524,5 +553,8 @@ int main(void) {
     RUN_TEST(test_assumed_profile_lies_on_the_belt_by_trapezoids);
     RUN_TEST(test_assumed_ramp_leaves_as_a_ramp);
     RUN_TEST(test_assumed_profile_replaces_all_that_was_known);
+    RUN_TEST(test_line_that_runs_away_stays_finite);
+    RUN_TEST(test_outlet_density_that_is_no_number_is_none_at_all);
+    RUN_TEST(test_neither_side_of_a_cut_is_below_zero);
     return UNITY_END();
 }

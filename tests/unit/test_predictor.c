@@ -608,6 +608,20 @@ static void test_rework_slope_is_the_change_of_rework_at_the_inlet(void) {
     }
 }
 
+static double heavy(double x) {
+    (void)x;
+    return 8.0;
+}
+
+static void test_predicted_level_ends_at_the_capacity_where_the_buffer_spills(void) {
+    lay(heavy, level_constant);
+    march();
+    for (uint32_t k = 0; k <= prediction.count; ++k) {
+        TEST_ASSERT_TRUE(prediction.level[k] <= config.level_capacity);
+    }
+    TEST_ASSERT_TRUE(prediction.inlet_level == config.level_capacity);
+}
+
 int main(void) {
     UNITY_BEGIN();
     RUN_TEST(test_empty_line_takes_its_shortest_dead_time);
@@ -633,5 +647,6 @@ int main(void) {
     RUN_TEST(test_profile_of_equal_values_is_the_uniform_loss_bit_for_bit);
     RUN_TEST(test_profile_of_nearly_equal_values_is_close_to_the_uniform_loss);
     RUN_TEST(test_rework_slope_is_the_change_of_rework_at_the_inlet);
+    RUN_TEST(test_predicted_level_ends_at_the_capacity_where_the_buffer_spills);
     return UNITY_END();
 }
