@@ -7,8 +7,8 @@
  *     belt_status_t status = belt_init(&controller, &config);
  *     every period: belt_step(&controller, &measurement, &command);
  *
- * Cost: a step of 20 nodes takes some 3,300 instructions and at most 3,700 (x86-64, uniform loss; with
- * a loss profile 8,500); init and a set-point change are for start-up and operators, not for the
+ * Cost: a step of 20 nodes takes some 3,300 instructions and at most 3,800 (x86-64, uniform loss; with
+ * a loss profile 8,600); init and a set-point change are for start-up and operators, not for the
  * period. No heap, no recursion, every loop bounded by node_count (a loss profile: its square) or by
  * a constant. One context calls step and set_setpoint; two controllers share nothing.
  */

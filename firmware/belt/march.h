@@ -99,9 +99,10 @@ static inline void belt_march_pass(const belt_march_setting_t *at, belt_march_t 
     const belt_real_t gain = at->gain * width;
     const belt_real_t inflow = gain * leaving.mean;
     const belt_real_t outflow = belt_line_service(at->line, march->level) * dwell;
-    const belt_real_t middle = march->level + gain * leaving.lead + BELT_HALF * (inflow - outflow);
-    const belt_real_t level = march->level + inflow - belt_line_service(at->line, middle) * dwell;
-    march->level = (level < at->line->level_capacity) ? level : at->line->level_capacity;
+    const belt_real_t middle = belt_line_level(at->line, march->level + gain * leaving.lead +
+                                                             BELT_HALF * (inflow - outflow));
+    march->level = belt_line_level(at->line, march->level + inflow -
+                                                 belt_line_service(at->line, middle) * dwell);
     march->arrival += dwell;
     march->place += width;
     march->pace += at->pace_slope * (middle - march->tail) * dwell;
