@@ -19,7 +19,6 @@ belt_status_t belt_init(belt_controller_t *controller, const belt_config_t *conf
     memset(controller, 0, sizeof *controller);
     controller->config = *config;
     belt_line_init(&controller->line, config);
-    controller->bounds = belt_measurement_bounds(config);
     belt_nominal_law_init(&controller->law, config);
     belt_level_history_init(&controller->history, config);
     belt_observer_init(&controller->observer);
@@ -85,9 +84,8 @@ belt_status_t belt_step(belt_controller_t *controller, const belt_measurement_t 
     if (!usable) {
         return feed_nothing(command, BELT_MISUSE, 0);
     }
-    controller->trusted =
-        belt_measurement_gate(measurement, &controller->trusted, controller->command.inlet_flux,
-                              &controller->line, &controller->bounds);
+    controller->trusted = belt_measurement_gate(measurement, &controller->trusted,
+                                                controller->command.inlet_flux, &controller->line);
     if ((controller->state == STATE_READY) && !controller->trusted.level_is_new) {
         return feed_nothing(command, BELT_NO_LEVEL, controller->trusted.error_bits);
     }

@@ -31,7 +31,6 @@
 typedef struct {
     belt_config_t config;         /**< as checked; set_setpoint changes level_setpoint. */
     belt_line_t line;             /**< numbers derived from it. */
-    belt_bounds_t bounds;         /**< beyond them an input is senseless. */
     belt_nominal_law_t law;       /**< u(Q*, .) for the present set-point. */
     belt_level_history_t history; /**< levels of the last speed_window. */
     belt_observer_t observer;     /**< density along the belt. */

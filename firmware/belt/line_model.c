@@ -40,7 +40,8 @@ void belt_line_init(belt_line_t *line, const belt_config_t *config) {
     line->level_capacity = config->level_capacity;
     line->rework_at_outlet = config->rework_rate * config->belt_length;
     line->rework_per_spacing = line->rework_at_outlet / nodes;
-    line->density_max = belt_config_density_bound(config);
+    line->flux_bound = belt_config_flux_bound(config);
+    line->density_bound = belt_config_density_bound(config);
     line->node_count = config->node_count;
     line->cell_slots = (config->node_count + 2u) & ~1u;
     line->loss_is_uniform = is_uniform(config);

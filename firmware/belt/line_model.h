@@ -27,7 +27,8 @@ typedef struct {
     belt_real_t level_capacity;   /**< Qmax [parts]. */
     belt_real_t rework_at_outlet; /**< A*D: rework per density leaving, at the outlet [1/s]. */
     belt_real_t rework_per_spacing; /**< A*D/node_count: how much less of it each spacing on. */
-    belt_real_t density_max;        /**< beyond any density of a sound line [parts/m]. */
+    belt_real_t flux_bound;         /**< beyond any flux of a sound line [parts/s]. */
+    belt_real_t density_bound;      /**< beyond any of its densities [parts/m]. */
     belt_real_t loss_mean;          /**< mean of C(x) along the belt [1/s]. */
     belt_real_t loss[BELT_NODE_CAPACITY + 1]; /**< mean of C(x) over each spacing, outlet first; the
                                           last stands twice [1/s]. */

@@ -1,12 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "measurement.h"
 
-belt_bounds_t belt_measurement_bounds(const belt_config_t *config) {
-    const belt_bounds_t bounds = {belt_config_flux_bound(config),
-                                  belt_config_density_bound(config)};
-    return bounds;
-}
-
 /** True for numbers in [0, bound]; false for every NaN and infinity. */
 static bool is_sound(belt_real_t value, belt_real_t bound) {
     return (value >= BELT_REAL(0)) && (value <= bound);
@@ -58,14 +52,14 @@ static void gate_density(belt_trusted_t *trusted, const belt_measurement_t *meas
 
 belt_trusted_t belt_measurement_gate(const belt_measurement_t *measurement,
                                      const belt_trusted_t *last, belt_real_t command,
-                                     const belt_line_t *line, const belt_bounds_t *bounds) {
+                                     const belt_line_t *line) {
     belt_trusted_t trusted = *last;
     trusted.error_bits = 0;
     gate_level(&trusted, measurement, line->level_capacity);
 
     trusted.has_outlet_flux = (measurement->present & BELT_HAS_OUTLET_FLUX) != 0u;
     if (trusted.has_outlet_flux) {
-        if (is_sound(measurement->outlet_flux, bounds->flux)) {
+        if (is_sound(measurement->outlet_flux, line->flux_bound)) {
             trusted.outlet_flux = measurement->outlet_flux;
         } else {
             trusted.has_outlet_flux = false;
@@ -75,12 +69,12 @@ belt_trusted_t belt_measurement_gate(const belt_measurement_t *measurement,
 
     trusted.applied_flux = command;
     if ((measurement->present & BELT_HAS_APPLIED_FLUX) != 0u) {
-        if (is_sound(measurement->applied_flux, bounds->flux)) {
+        if (is_sound(measurement->applied_flux, line->flux_bound)) {
             trusted.applied_flux = measurement->applied_flux;
         } else {
             trusted.error_bits |= BELT_ERROR_APPLIED_FLUX_INVALID;
         }
     }
-    gate_density(&trusted, measurement, line->node_count, bounds->density);
+    gate_density(&trusted, measurement, line->node_count, line->density_bound);
     return trusted;
 }

@@ -52,18 +52,9 @@ typedef struct {
     uint32_t error_bits; /**< BELT_ERROR_... */
 } belt_trusted_t;
 
-/** Bounds no sound line can pass; beyond them an input is senseless. */
-typedef struct {
-    belt_real_t flux;    /**< [parts/s]. */
-    belt_real_t density; /**< [parts/m]. */
-} belt_bounds_t;
-
-/** The bounds of a checked configuration, belt_config_flux_bound() and ..._density_bound(). */
-belt_bounds_t belt_measurement_bounds(const belt_config_t *config);
-
 /** Sorts one period's inputs; `last` is what was trusted before, `command` the last command. */
 belt_trusted_t belt_measurement_gate(const belt_measurement_t *measurement,
                                      const belt_trusted_t *last, belt_real_t command,
-                                     const belt_line_t *line, const belt_bounds_t *bounds);
+                                     const belt_line_t *line);
 
 #endif

@@ -239,7 +239,7 @@ void belt_observer_advance(belt_observer_t *observer, const belt_line_t *line,
     const belt_real_t left = passage->left_is_measured
                                  ? passage->left_density
                                  : leaving_density(observer, line, passage->travel, pace);
-    observer->outlet_density = between(BELT_REAL(0), left, line->density_max);
+    observer->outlet_density = between(BELT_REAL(0), left, line->density_bound);
     age_cells(observer, line, passage, pace);
 
     const uint32_t open = belt_observer_behind(line, observer->outlet, line->node_count);

@@ -14,7 +14,6 @@
 
 static belt_config_t config;
 static belt_line_t line;
-static belt_bounds_t bounds;
 static belt_trusted_t last;
 static belt_measurement_t measurement;
 static belt_real_t density[BELT_NODE_CAPACITY + 1];
@@ -22,7 +21,6 @@ static belt_real_t density[BELT_NODE_CAPACITY + 1];
 void setUp(void) {
     config = paper_case();
     belt_line_init(&line, &config);
-    bounds = belt_measurement_bounds(&config);
     for (size_t i = 0; i <= config.node_count; ++i) {
         density[i] = BELT_REAL(0.25);
     }
@@ -38,7 +36,7 @@ void tearDown(void) {
 }
 
 static belt_trusted_t gate(void) {
-    return belt_measurement_gate(&measurement, &last, COMMAND, &line, &bounds);
+    return belt_measurement_gate(&measurement, &last, COMMAND, &line);
 }
 
 #if BELT_REAL_IS_DOUBLE
@@ -65,8 +63,8 @@ static void test_bounds_are_ten_times_what_the_law_can_ask_for(void) {
     /* 1.2 at the outlet, the line 1 + 0.2*1/1 times slower then, a loss of 1 over 0.6 s made up for;
      * as a density times 0.25*1.2. Five roundings at most, and 2 of the exponential. */
     const double flux = 10 * 1.2 * 1.2 * exp(0.6);
-    TEST_ASSERT_DOUBLE_WITHIN(8 * EPSILON * flux, flux, (double)bounds.flux);
-    TEST_ASSERT_DOUBLE_WITHIN(10 * EPSILON * flux * 0.3, flux * 0.3, (double)bounds.density);
+    TEST_ASSERT_DOUBLE_WITHIN(8 * EPSILON * flux, flux, (double)line.flux_bound);
+    TEST_ASSERT_DOUBLE_WITHIN(10 * EPSILON * flux * 0.3, flux * 0.3, (double)line.density_bound);
 }
 
 static void test_bounds_grow_with_the_congestion_the_line_can_have(void) {
@@ -75,14 +73,14 @@ static void test_bounds_grow_with_the_congestion_the_line_can_have(void) {
     /* 1 + 0.2*2/0.1 times slower: 2.5 s. The exponent's own roundings count 2.5 times. */
     const double most = 10 * 1.2 * 5 * exp(2.5) * 0.25 * 5;
     TEST_ASSERT_DOUBLE_WITHIN(20 * EPSILON * most, most,
-                              (double)belt_measurement_bounds(&config).density);
+                              (double)belt_config_density_bound(&config));
 }
 
 static void test_the_most_that_losses_can_make_the_law_ask_for_is_sound(void) {
     /* 1/survival = exp(9.9): what is fed then is more than 10,000 times what arrives. */
     config.loss_rate[0] = BELT_REAL(16.5);
     const double most = 1.2 * exp(16.5 * 0.6);
-    TEST_ASSERT_TRUE((double)belt_measurement_bounds(&config).flux > 9 * most);
+    TEST_ASSERT_TRUE((double)belt_config_flux_bound(&config) > 9 * most);
 }
 
 /* --- what is sound passes --- */
@@ -98,9 +96,9 @@ static void test_sound_inputs_pass_unchanged(void) {
 
 static void test_limits_themselves_are_sound(void) {
     measurement.level = config.level_capacity;
-    measurement.outlet_flux = bounds.flux;
-    measurement.applied_flux = bounds.flux;
-    density[0] = bounds.density;
+    measurement.outlet_flux = line.flux_bound;
+    measurement.applied_flux = line.flux_bound;
+    density[0] = line.density_bound;
     TEST_ASSERT_EQUAL_HEX32(0u, gate().error_bits);
     measurement.level = BELT_REAL(0);
     measurement.outlet_flux = BELT_REAL(0);
@@ -180,7 +178,7 @@ static size_t senseless_fluxes(belt_real_t *fluxes) {
     fluxes[count++] = BELT_REAL(-INFINITY);
     fluxes[count++] = BELT_REAL_MAX;
     fluxes[count++] = -BELT_REAL_MAX;
-    fluxes[count++] = real_next(bounds.flux, BELT_REAL_MAX);
+    fluxes[count++] = real_next(line.flux_bound, BELT_REAL_MAX);
     fluxes[count++] = -real_from_bits(1u);
     return count;
 }
@@ -255,7 +253,7 @@ static void test_one_senseless_value_anywhere_refuses_the_profile(void) {
         assert_density_is_refused(BELT_ERROR_DENSITY_INVALID);
         density[node] = BELT_REAL_MAX;
         assert_density_is_refused(BELT_ERROR_DENSITY_INVALID);
-        density[node] = real_next(bounds.density, BELT_REAL_MAX);
+        density[node] = real_next(line.density_bound, BELT_REAL_MAX);
         assert_density_is_refused(BELT_ERROR_DENSITY_INVALID);
         density[node] = BELT_REAL(0.25);
     }
@@ -319,11 +317,11 @@ static void test_whatever_the_bits_what_passes_is_in_range(void) {
         store(&density[i % (int)(config.node_count + 1u)], random_bits(&random));
         const belt_trusted_t trusted = gate();
         TEST_ASSERT_TRUE(is_within(trusted.level, config.level_capacity));
-        TEST_ASSERT_TRUE(is_within(trusted.applied_flux, bounds.flux));
-        TEST_ASSERT_TRUE(is_within(trusted.outlet_flux, bounds.flux));
+        TEST_ASSERT_TRUE(is_within(trusted.applied_flux, line.flux_bound));
+        TEST_ASSERT_TRUE(is_within(trusted.outlet_flux, line.flux_bound));
         if (trusted.has_density) {
             for (size_t node = 0; node <= config.node_count; ++node) {
-                TEST_ASSERT_TRUE(is_within(density[node], bounds.density));
+                TEST_ASSERT_TRUE(is_within(density[node], line.density_bound));
             }
         }
         last = trusted;

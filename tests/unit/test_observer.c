@@ -505,9 +505,9 @@ static void test_line_that_runs_away_stays_finite(void) {
     for (int i = 0; i < 40000; ++i) {
         advance(0.5, 1.0);
         TEST_ASSERT_TRUE(observer.outlet_density >= BELT_REAL(0));
-        TEST_ASSERT_TRUE(observer.outlet_density <= line.density_max);
+        TEST_ASSERT_TRUE(observer.outlet_density <= line.density_bound);
     }
-    TEST_ASSERT_TRUE(observer.outlet_density >= BELT_HALF * line.density_max);
+    TEST_ASSERT_TRUE(observer.outlet_density >= BELT_HALF * line.density_bound);
 }
 
 static void test_outlet_density_that_is_no_number_is_none_at_all(void) {
