@@ -3,6 +3,10 @@
 
 #include <string.h>
 
+BELT_STATIC_ASSERT(configuration_stands_before_all_else,
+                   (offsetof(belt_controller_t, config) == 0) &&
+                       (offsetof(belt_controller_t, line) >= sizeof(belt_config_t)));
+
 /* Words no freshly declared memory holds by chance. */
 #define STATE_READY 0x0BE17001u
 #define STATE_RUNNING 0x0BE17002u
@@ -16,14 +20,16 @@ belt_status_t belt_init(belt_controller_t *controller, const belt_config_t *conf
     if (status != BELT_OK) {
         return status;
     }
-    memset(controller, 0, sizeof *controller);
+    /* The configuration may be the controller's own: it is copied first, then all behind it cleared. */
     controller->config = *config;
-    belt_line_init(&controller->line, config);
-    belt_nominal_law_init(&controller->law, config);
-    belt_level_history_init(&controller->history, config);
+    const size_t behind = offsetof(belt_controller_t, line);
+    memset((unsigned char *)controller + behind, 0, sizeof *controller - behind);
+    belt_line_init(&controller->line, &controller->config);
+    belt_nominal_law_init(&controller->law, &controller->config);
+    belt_level_history_init(&controller->history, &controller->config);
     belt_observer_init(&controller->observer);
     controller->command.mode = BELT_MODE_OFF;
-    controller->transport_speed = BELT_REAL(1) / config->processing_time;
+    controller->transport_speed = BELT_REAL(1) / controller->config.processing_time;
     controller->state = STATE_READY;
     return BELT_OK;
 }

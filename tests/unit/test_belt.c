@@ -347,6 +347,19 @@ static void test_inputs_are_left_as_they_are(void) {
     TEST_ASSERT_TRUE(memcmp(&config_before, &config, sizeof config) == 0);
 }
 
+/* --- start again --- */
+
+static void test_controller_can_start_again_with_its_own_configuration(void) {
+    belt_command_t first;
+    TEST_ASSERT_EQUAL(BELT_OK, belt_init(&controller, &config));
+    TEST_ASSERT_EQUAL(BELT_OK, step_level(0.1));
+    first = command;
+    TEST_ASSERT_EQUAL(BELT_OK, step_level(0.2));
+    TEST_ASSERT_EQUAL(BELT_OK, belt_init(&controller, &controller.config));
+    TEST_ASSERT_EQUAL(BELT_OK, step_level(0.1));
+    TEST_ASSERT_TRUE(command.inlet_flux == first.inlet_flux);
+}
+
 /* --- no clock --- */
 
 /* At rest on an empty buffer this line moves an eighth of a spacing a period, exactly. */
@@ -425,6 +438,7 @@ int main(void) {
     RUN_TEST(test_two_controllers_do_not_influence_each_other);
     RUN_TEST(test_nothing_is_written_outside_the_structs);
     RUN_TEST(test_inputs_are_left_as_they_are);
+    RUN_TEST(test_controller_can_start_again_with_its_own_configuration);
     RUN_TEST(test_a_long_rest_leaves_no_trace);
     RUN_TEST(test_tick_and_sample_counts_change_nothing);
     return UNITY_END();
