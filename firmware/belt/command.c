@@ -2,10 +2,7 @@
 #include "command.h"
 
 belt_real_t belt_command_limit(belt_real_t flux, belt_real_t limit) {
-    if (!(flux > BELT_REAL(0))) {
-        return BELT_REAL(0);
-    }
-    return (flux < limit) ? flux : limit;
+    return belt_within(BELT_REAL(0), flux, limit);
 }
 
 belt_real_t belt_command_solve(const belt_prediction_t *prediction, const belt_line_t *line,
@@ -18,8 +15,8 @@ belt_real_t belt_command_solve(const belt_prediction_t *prediction, const belt_l
         belt_line_slowness(line, present->congestion + half_hold * (present->level - present_tail));
 
     /* Arrival: half a hold of travel behind the last material fed, at the pace of then. */
-    const belt_real_t gap =
-        half_hold * prediction->inlet_slowness / belt_line_slowness(line, present->congestion);
+    const belt_real_t travel = half_hold / belt_line_slowness(line, present->congestion);
+    const belt_real_t gap = travel * prediction->inlet_slowness;
     const belt_real_t inflow =
         line->connectivity * belt_nominal_law_flux(law, prediction->inlet_level);
     const belt_real_t level =
@@ -30,9 +27,8 @@ belt_real_t belt_command_solve(const belt_prediction_t *prediction, const belt_l
     const belt_real_t survival =
         prediction->inlet_survival * (BELT_REAL(1) - line->loss_mean * (gap - half_hold));
 
-    const belt_real_t travel =
-        half_hold / (line->spacing * belt_line_slowness(line, present->congestion));
-    const belt_real_t rework = prediction->inlet_rework + travel * prediction->inlet_rework_slope;
+    const belt_real_t rework =
+        prediction->inlet_rework + travel / line->spacing * prediction->inlet_rework_slope;
 
     const belt_real_t wanted = arriving * belt_nominal_law_flux(law, level);
     return (wanted - rework) / (survival * feeding);

@@ -9,7 +9,7 @@
  *
  *     inlet_flux = (slowness(arrival)*u(Q*, p1) - rework)/(survival*slowness(feeding))
  *
- * Cost: two evaluations of the law, one division.
+ * Cost: two evaluations of the law, three divisions.
  */
 #ifndef BELT_COMMAND_H
 #define BELT_COMMAND_H
@@ -24,10 +24,9 @@ typedef enum {
 } belt_mode_t;
 
 typedef struct {
-    belt_real_t
-        inlet_flux;      /**< U: flux to feed until the next step [parts/s], 0 ... inlet_flux_max,
-                                 always finite. */
-    belt_mode_t mode;    /**< who is in command. */
+    belt_real_t inlet_flux; /**< U: flux to feed until the next step, always finite and within
+                                 0 ... inlet_flux_max [parts/s]. */
+    belt_mode_t mode;       /**< who is in command. */
     uint32_t error_bits; /**< BELT_ERROR_... of measurement.h: inputs not trusted in this step. */
 } belt_command_t;
 

@@ -20,8 +20,7 @@ static belt_real_t worst_loss_rate(const belt_config_t *config) {
     return worst;
 }
 
-/** Mean of C(x) along the belt [1/s]: trapezoids between equally spaced values. */
-static belt_real_t mean_loss_rate(const belt_config_t *config) {
+belt_real_t belt_config_loss_mean(const belt_config_t *config) {
     if (config->loss_count <= 1) {
         return config->loss_rate[0];
     }
@@ -58,7 +57,7 @@ belt_real_t belt_config_dead_time_max(const belt_config_t *config) {
 }
 
 belt_real_t belt_config_loss_exponent(const belt_config_t *config) {
-    return mean_loss_rate(config) * belt_config_dead_time_max(config);
+    return belt_config_loss_mean(config) * belt_config_dead_time_max(config);
 }
 
 belt_real_t belt_config_flux_bound(const belt_config_t *config) {

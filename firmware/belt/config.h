@@ -109,6 +109,9 @@ belt_real_t belt_config_setpoint_flux(const belt_config_t *config);
 /** 1 + tau Qmax/congestion_scale: how many times slower the fullest line is than the empty one. */
 belt_real_t belt_config_slowdown_max(const belt_config_t *config);
 
+/** Mean of C(x) along the belt: trapezoids between the equally spaced values [1/s]. */
+belt_real_t belt_config_loss_mean(const belt_config_t *config);
+
 /** Mean of C(x) along the belt times the longest dead time: exponent of the greatest 1/survival. */
 belt_real_t belt_config_loss_exponent(const belt_config_t *config);
 

@@ -45,7 +45,7 @@ void belt_line_init(belt_line_t *line, const belt_config_t *config) {
     line->node_count = config->node_count;
     line->cell_slots = (config->node_count + 2u) & ~1u;
     line->loss_is_uniform = is_uniform(config);
-    line->loss_mean = loss_up_to(config, config->belt_length) / config->belt_length;
+    line->loss_mean = belt_config_loss_mean(config);
     line->loss_sum[0] = BELT_REAL(0);
     for (uint32_t i = 0; i < config->node_count; ++i) {
         const belt_real_t inner = loss_up_to(config, line->spacing * (belt_real_t)i);

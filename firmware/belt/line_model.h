@@ -48,8 +48,7 @@ static inline belt_real_t belt_line_slowness(const belt_line_t *line, belt_real_
 
 /** A level that the buffer can have: what is too much is spilled; what is no number is none [parts]. */
 static inline belt_real_t belt_line_level(const belt_line_t *line, belt_real_t level) {
-    const belt_real_t not_less = (level > BELT_REAL(0)) ? level : BELT_REAL(0);
-    return (not_less < line->level_capacity) ? not_less : line->level_capacity;
+    return belt_within(BELT_REAL(0), level, line->level_capacity);
 }
 
 /** min(Q/service_time, mu): what the buffer gives away (eq:buffer3) [parts/s]. */

@@ -16,18 +16,22 @@
 #define BELT_HAS_APPLIED_FLUX 4u
 #define BELT_HAS_DENSITY 8u
 
-/* Why an input was not trusted in this step. */
-#define BELT_ERROR_LEVEL_MISSING 1u       /**< no level: the last good one stands in. */
-#define BELT_ERROR_LEVEL_INVALID 2u       /**< NaN or infinite: the last good one stands in. */
-#define BELT_ERROR_LEVEL_RANGE 4u         /**< outside [0, level_capacity]: clamped. */
-#define BELT_ERROR_OUTLET_FLUX_INVALID 8u /**< no number, or senseless: the observer's stands in. */
-#define BELT_ERROR_APPLIED_FLUX_INVALID 16u /**< no number, or senseless: the command stands in. */
-#define BELT_ERROR_DENSITY_INVALID                                                                 \
-    32u /**< a value no number, or senseless: the observer's
-                                                profile stands in. */
-#define BELT_ERROR_DENSITY_RANGE                                                                   \
-    64u /**< a density below 0: the observer's profile stands
-                                                in. */
+/* Why an input was not trusted in this step, and what stands in for it. A value is senseless beyond
+ * the bounds of belt_line_t.
+ *   LEVEL_MISSING         there is none; the last good one
+ *   LEVEL_INVALID         NaN or infinite; the last good one
+ *   LEVEL_RANGE           outside [0, level_capacity]; the nearer end
+ *   OUTLET_FLUX_INVALID   no number, negative or senseless; the observer's
+ *   APPLIED_FLUX_INVALID  no number, negative or senseless; the last command
+ *   DENSITY_INVALID       no profile, or a value in it no number or senseless; the observer's profile
+ *   DENSITY_RANGE         a density below 0; the observer's profile */
+#define BELT_ERROR_LEVEL_MISSING 1u
+#define BELT_ERROR_LEVEL_INVALID 2u
+#define BELT_ERROR_LEVEL_RANGE 4u
+#define BELT_ERROR_OUTLET_FLUX_INVALID 8u
+#define BELT_ERROR_APPLIED_FLUX_INVALID 16u
+#define BELT_ERROR_DENSITY_INVALID 32u
+#define BELT_ERROR_DENSITY_RANGE 64u
 
 typedef struct {
     uint32_t present;           /**< BELT_HAS_... bits. */

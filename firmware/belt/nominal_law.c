@@ -15,9 +15,8 @@ void belt_nominal_law_init(belt_nominal_law_t *law, const belt_config_t *config)
 }
 
 belt_real_t belt_nominal_law_flux(const belt_nominal_law_t *law, belt_real_t level) {
-    belt_real_t within = (level > BELT_REAL(0)) ? level : BELT_REAL(0);
-    within = (within < law->level_capacity) ? within : law->level_capacity;
-    const belt_real_t missing = law->level_setpoint - within;
+    const belt_real_t missing =
+        law->level_setpoint - belt_within(BELT_REAL(0), level, law->level_capacity);
     if (missing >= BELT_REAL(0)) {
         return law->setpoint_flux - law->reach_below * belt_expm1(-law->gains.below * missing);
     }

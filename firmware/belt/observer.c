@@ -40,12 +40,6 @@ void belt_observer_assume(belt_observer_t *observer, const belt_line_t *line,
     observer->fed_density = density[line->node_count];
 }
 
-/** A number in its limits; one that is none is the lower limit. */
-static belt_real_t between(belt_real_t lower, belt_real_t value, belt_real_t upper) {
-    const belt_real_t high_enough = (value > lower) ? value : lower;
-    return (high_enough < upper) ? high_enough : upper;
-}
-
 /** Density on the outlet side of a cell's cut. */
 static belt_real_t outlet_side(const belt_observer_t *observer, uint32_t cell) {
     return observer->density[cell] - observer->step[cell] * (BELT_REAL(1) - observer->cut[cell]);
@@ -203,10 +197,8 @@ static belt_real_t cut_of(const belt_observer_t *observer) {
     if (!(observer->jumps > BELT_REAL(0))) {
         return BELT_HALF;
     }
-    const belt_real_t centre = observer->jumps_place / observer->jumps;
-    const belt_real_t last = BELT_REAL(1) - CUT_MARGIN;
-    const belt_real_t late = (centre < last) ? centre : last;
-    return (late > CUT_MARGIN) ? late : CUT_MARGIN;
+    return belt_within(CUT_MARGIN, observer->jumps_place / observer->jumps,
+                       BELT_REAL(1) - CUT_MARGIN);
 }
 
 /** Ends the open cell at its full width; it has travelled `since` spacings more at `pace`. The slot
@@ -218,7 +210,7 @@ static void close_cell(belt_observer_t *observer, const belt_line_t *line, uint3
     const belt_real_t moment = observer->moment - BELT_HALF * mean;
     const belt_real_t step = BELT_REAL(2) * moment / (cut * (BELT_REAL(1) - cut));
     observer->cut[open] = cut;
-    observer->step[open] = between(-mean / cut, step, mean / (BELT_REAL(1) - cut));
+    observer->step[open] = belt_within(-mean / cut, step, mean / (BELT_REAL(1) - cut));
     const belt_real_t time = since * pace;
     const belt_real_t from_inlet = BELT_HALF + BELT_HALF * since;
     observer->density[open] =
@@ -239,7 +231,7 @@ void belt_observer_advance(belt_observer_t *observer, const belt_line_t *line,
     const belt_real_t left = passage->left_is_measured
                                  ? passage->left_density
                                  : leaving_density(observer, line, passage->travel, pace);
-    observer->outlet_density = between(BELT_REAL(0), left, line->density_bound);
+    observer->outlet_density = belt_within(BELT_REAL(0), left, line->density_bound);
     age_cells(observer, line, passage, pace);
 
     const uint32_t open = belt_observer_behind(line, observer->outlet, line->node_count);
@@ -252,7 +244,6 @@ void belt_observer_advance(belt_observer_t *observer, const belt_line_t *line,
         const uint32_t fresh = belt_observer_behind(line, open, 1u);
         feed(observer, line, open, observer->gone, BELT_REAL(1), passage->fed_density, pace);
         close_cell(observer, line, open, rest, pace);
-        observer->fed_density = passage->fed_density;
         if (rest > BELT_REAL(0)) {
             feed(observer, line, fresh, BELT_REAL(0), rest, passage->fed_density, pace);
         }

@@ -81,6 +81,12 @@ BELT_STATIC_ASSERT(double_is_binary, DBL_MANT_DIG == 53);
 #define BELT_REAL(number) ((belt_real_t)(number))
 #define BELT_HALF BELT_REAL(0.5)
 
+/** A number kept within its limits; one that is none (NaN) is the lower limit. */
+static inline belt_real_t belt_within(belt_real_t lower, belt_real_t value, belt_real_t upper) {
+    const belt_real_t not_less = (value > lower) ? value : lower;
+    return (not_less < upper) ? not_less : upper;
+}
+
 /**
  * What a call says. Codes from BELT_BELT_LENGTH to BELT_PREDICTION_KIND are the rules of a
  * configuration, in the order in which they are checked; each is also a bit of the mask of broken
