@@ -4,27 +4,14 @@
 #include "equilibrium.h"
 #include "model.h"
 
-/** Says which of the set-points to come the controller would refuse; returns how many. */
-static int check_setpoints(const scenario_t *scenario, const belt_config_t *config, FILE *out) {
-    int refused = 0;
-    for (size_t i = 0; i < scenario->run.setpoint_count; ++i) {
-        belt_config_t changed = *config;
-        changed.level_setpoint = model_real(scenario->run.setpoint_levels[i]);
-        if (belt_config_check(&changed, NULL) != BELT_OK) {
-            fprintf(out, "run.setpoint_levels, the set-point at %.6g s:\n",
-                    scenario->run.setpoint_times[i]);
-            model_print_refusals(&changed, scenario->name, out);
-            ++refused;
-        }
-    }
-    return refused;
-}
-
 bool check_report(const scenario_t *scenario, FILE *out) {
     belt_config_t config;
     model_config(scenario, &config);
     fprintf(out, "%s\nrules of the controller's configuration:\n", scenario->name);
-    const int broken = model_print_rules(&config, out) + check_setpoints(scenario, &config, out);
+    int broken = model_print_rules(&config, out);
+    for (size_t i = 0; i < scenario->run.setpoint_count; ++i) {
+        broken += model_refuses_setpoint(scenario, i, out) ? 1 : 0;
+    }
     if (broken > 0) {
         fprintf(out, "%d broken: the controller would refuse this scenario\n", broken);
         return false;

@@ -17,8 +17,6 @@
 typedef struct {
     const scenario_t *scenario;
     plant_t plant;
-    const scheme_t *scheme;
-    void *belt;
     belt_controller_t controller;
     belt_real_t profile[BELT_NODE_CAPACITY + 1];
     double scratch[BELT_NODE_CAPACITY + 1];
@@ -38,17 +36,9 @@ static bool create_plant(loop_t *loop) {
         scenario->initial.buffer_level,
         &scenario->initial.density,
     };
-    loop->scheme =
-        (scenario->plant.scheme == SCHEME_UPWIND) ? &scheme_upwind : &scheme_characteristics;
-    if (!plant_create(&loop->plant, &setup)) {
-        return false;
-    }
-    if (!loop->scheme->create(&loop->belt, &loop->plant)) {
-        plant_destroy(&loop->plant);
-        return false;
-    }
-    loop->plant.parts_at_start += loop->scheme->content(loop->belt, &loop->plant);
-    return true;
+    return plant_create(&loop->plant, &setup,
+                        (scenario->plant.scheme == SCHEME_UPWIND) ? &scheme_upwind
+                                                                  : &scheme_characteristics);
 }
 
 /** What the controller may see of the plant in period `k`. */
@@ -68,12 +58,11 @@ static void measure(loop_t *loop, size_t k, belt_measurement_t *measurement) {
     }
     if (scenario->controller.outlet_flux == OUTLET_MEASURED) {
         measurement->present |= BELT_HAS_OUTLET_FLUX;
-        measurement->outlet_flux = model_real(line_speed(plant->setup.line, plant->congestion) *
-                                              loop->scheme->outlet_density(loop->belt, plant));
+        measurement->outlet_flux = model_real(plant_outlet_flux(plant));
     }
     if (scenario->controller.density == DENSITY_MEASURED) {
         measurement->present |= BELT_HAS_DENSITY;
-        loop->scheme->profile(loop->belt, plant, loop->scratch, count);
+        plant_profile(plant, loop->scratch, count);
         for (size_t i = 0; i < count; ++i) {
             loop->profile[i] = model_real(loop->scratch[i]);
         }
@@ -98,14 +87,8 @@ static bool change_setpoint(loop_t *loop, size_t k, FILE *messages) {
             break;
         }
         const double level = scenario->run.setpoint_levels[loop->setpoints_done];
-        const belt_status_t status = belt_set_setpoint(&loop->controller, model_real(level));
-        if (status != BELT_OK) {
-            belt_config_t config = loop->controller.config;
-            config.level_setpoint = model_real(level);
-            char name[256];
-            (void)snprintf(name, sizeof name, "%s: run.setpoint_levels, at %.9g s", scenario->name,
-                           scenario->run.setpoint_times[loop->setpoints_done]);
-            model_print_refusals(&config, name, messages);
+        if (model_refuses_setpoint(scenario, loop->setpoints_done, messages) ||
+            (belt_set_setpoint(&loop->controller, model_real(level)) != BELT_OK)) {
             return false;
         }
         loop->open_loop_flux = equilibrium_of(&scenario->line, level).inlet_flux;
@@ -139,8 +122,8 @@ static loop_row_t observe(const loop_t *loop, size_t k, double command) {
     row.level_setpoint = (double)loop->controller.config.level_setpoint;
     row.inlet_flux = command;
     row.congestion = plant->congestion;
-    row.transport_speed = line_speed(plant->setup.line, plant->congestion);
-    row.outlet_flux = row.transport_speed * loop->scheme->outlet_density(loop->belt, plant);
+    row.transport_speed = plant_speed(plant);
+    row.outlet_flux = plant_outlet_flux(plant);
     row.predicted_level = (double)prediction->inlet_level;
     row.arrival_time = row.time + (double)prediction->inlet_arrival;
     row.survival = (double)prediction->inlet_survival;
@@ -148,10 +131,10 @@ static loop_row_t observe(const loop_t *loop, size_t k, double command) {
 }
 
 /** Says what is wrong with a row, if anything: neither side may leave its own limits. */
-static bool row_is_sound(const loop_t *loop, const loop_row_t *row, FILE *messages) {
+static bool row_is_sound(const loop_t *loop, const loop_row_t *row, double balance_error,
+                         FILE *messages) {
     const plant_t *plant = &loop->plant;
     const double capacity = plant->setup.line->level_capacity;
-    const double error = fabs(plant_balance_error(plant, loop->scheme, loop->belt));
     const double parts = plant->parts_at_start + plant->account.fed + plant->account.reworked;
     const char *fault = NULL;
     if (!(row->inlet_flux >= 0.0) ||
@@ -159,14 +142,15 @@ static bool row_is_sound(const loop_t *loop, const loop_row_t *row, FILE *messag
         fault = "the command left its limits";
     } else if (!(row->buffer_level >= -1e-9 * capacity) || !(row->buffer_level <= capacity)) {
         fault = "the plant's level left its limits: raise plant.substeps";
-    } else if (!(error <= BALANCE_SHARE * parts + 1e-12 * capacity)) {
+    } else if (!(fabs(balance_error) <= BALANCE_SHARE * parts + 1e-12 * capacity)) {
         fault = "the plant's parts do not balance: raise plant.substeps or plant.node_count";
     }
     if (fault != NULL) {
         fprintf(messages,
                 "%s: self-check at %.9g s: %s (inlet_flux %.9g, buffer_level %.9g, balance "
                 "error %.3g)\n",
-                loop->scenario->name, row->time, fault, row->inlet_flux, row->buffer_level, error);
+                loop->scenario->name, row->time, fault, row->inlet_flux, row->buffer_level,
+                balance_error);
     }
     return fault == NULL;
 }
@@ -192,17 +176,19 @@ static loop_status_t run_periods(loop_t *loop, const loop_sink_t *sink, FILE *me
         const double flux = command_of(loop, &command);
         const loop_row_t row = observe(loop, k, flux);
         totals->steps = k + 1;
-        if (!row_is_sound(loop, &row, messages)) {
+        totals->spilled = loop->plant.account.spilled;
+        totals->balance_error = plant_balance_error(&loop->plant);
+        if (!row_is_sound(loop, &row, totals->balance_error, messages)) {
             return LOOP_SELF_CHECK;
         }
-        loop->scheme->profile(loop->belt, &loop->plant, loop->density, DENSITY_COUNT);
+        if (sink->wants_density) {
+            plant_profile(&loop->plant, loop->density, DENSITY_COUNT);
+        }
         if (!sink->take(sink->context, &row, loop->density, DENSITY_COUNT)) {
             return LOOP_STOPPED;
         }
-        totals->spilled = loop->plant.account.spilled;
-        totals->balance_error = plant_balance_error(&loop->plant, loop->scheme, loop->belt);
         if (k < last) {
-            plant_advance(&loop->plant, loop->scheme, loop->belt, flux);
+            plant_advance(&loop->plant, flux);
         }
     }
     return LOOP_DONE;
@@ -227,7 +213,6 @@ loop_status_t loop_run(const scenario_t *scenario, const loop_sink_t *sink, FILE
         return LOOP_NO_MEMORY;
     }
     const loop_status_t status = run_periods(&loop, sink, messages, totals);
-    loop.scheme->destroy(loop.belt);
     plant_destroy(&loop.plant);
     return status;
 }

@@ -32,6 +32,7 @@ typedef struct {
  * from outlet to inlet [parts/m]. Returning false ends the run (a full disk, an interrupt). */
 typedef struct {
     void *context;
+    bool wants_density; /**< false: what `take` gets as densities is 0. */
     bool (*take)(void *context, const loop_row_t *row, const double *density, size_t density_count);
 } loop_sink_t;
 

@@ -143,3 +143,17 @@ void model_print_refusals(const belt_config_t *config, const char *name, FILE *m
         fprintf(messages, " (%s: %s)\n", belt_status_name(text->code), text->reason);
     }
 }
+
+bool model_refuses_setpoint(const scenario_t *scenario, size_t index, FILE *messages) {
+    belt_config_t config;
+    char name[256];
+    model_config(scenario, &config);
+    config.level_setpoint = model_real(scenario->run.setpoint_levels[index]);
+    if (belt_config_check(&config, NULL) == BELT_OK) {
+        return false;
+    }
+    (void)snprintf(name, sizeof name, "%s: run.setpoint_levels, at %.9g s", scenario->name,
+                   scenario->run.setpoint_times[index]);
+    model_print_refusals(&config, name, messages);
+    return true;
+}

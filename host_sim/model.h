@@ -21,6 +21,10 @@ belt_real_t model_real(double value);
  * many are broken. */
 int model_print_rules(const belt_config_t *config, FILE *out);
 
+/** Whether the controller refuses the scenario's `index`-th set-point to come; then prints the broken
+ * rules, with its time. */
+bool model_refuses_setpoint(const scenario_t *scenario, size_t index, FILE *messages);
+
 /** Prints the broken rules, one a line with value and limits, `name` before each. */
 void model_print_refusals(const belt_config_t *config, const char *name, FILE *messages);
 

@@ -11,23 +11,29 @@ double line_service(const line_t *line, double level) {
     return fmin(level / line->service_time, line->service_rate_max);
 }
 
-bool plant_create(plant_t *plant, const plant_setup_t *setup) {
+bool plant_create(plant_t *plant, const plant_setup_t *setup, const scheme_t *scheme) {
     const plant_account_t nothing = {0};
     plant->setup = *setup;
+    plant->scheme = scheme;
     plant->step = setup->period / (double)setup->substeps;
     plant->level = setup->buffer_level;
     plant->applied_flux = 0.0;
-    plant->parts_at_start = setup->buffer_level;
     plant->account = nothing;
     if (!speed_window_create(&plant->window, setup->line->speed_window, plant->step,
                              setup->buffer_level)) {
         return false;
     }
+    if (!scheme->create(&plant->belt, plant)) {
+        speed_window_destroy(&plant->window);
+        return false;
+    }
     plant->congestion = speed_window_congestion(&plant->window);
+    plant->parts_at_start = setup->buffer_level + scheme->content(plant->belt, plant);
     return true;
 }
 
 void plant_destroy(plant_t *plant) {
+    plant->scheme->destroy(plant->belt);
     speed_window_destroy(&plant->window);
 }
 
@@ -43,17 +49,29 @@ void plant_serve(plant_t *plant, double left, double middle) {
     plant->congestion = speed_window_congestion(&plant->window);
 }
 
-void plant_advance(plant_t *plant, const scheme_t *scheme, void *belt, double command) {
+void plant_advance(plant_t *plant, double command) {
     plant->applied_flux = fmin(command, plant->setup.inlet_flux_max);
     for (size_t i = 0; i < plant->setup.substeps; ++i) {
-        scheme->advance(belt, plant, plant->applied_flux, i == 0);
+        plant->scheme->advance(plant->belt, plant, plant->applied_flux, i == 0);
         plant->account.fed += plant->applied_flux * plant->step;
     }
 }
 
-double plant_balance_error(const plant_t *plant, const scheme_t *scheme, const void *belt) {
+double plant_speed(const plant_t *plant) {
+    return line_speed(plant->setup.line, plant->congestion);
+}
+
+double plant_outlet_flux(const plant_t *plant) {
+    return plant_speed(plant) * plant->scheme->outlet_density(plant->belt, plant);
+}
+
+void plant_profile(const plant_t *plant, double *density, size_t count) {
+    plant->scheme->profile(plant->belt, plant, density, count);
+}
+
+double plant_balance_error(const plant_t *plant) {
     const plant_account_t *account = &plant->account;
     const double in = plant->parts_at_start + account->fed + account->reworked;
     const double out = account->served + account->spilled + account->diverted + account->lost;
-    return in - out - plant->level - scheme->content(belt, plant);
+    return in - out - plant->level - plant->scheme->content(plant->belt, plant);
 }

@@ -39,17 +39,7 @@ typedef struct {
     double reworked; /**< put back on the belt. */
 } plant_account_t;
 
-/** The buffer, and what sets the speed: the same for both schemes. */
-typedef struct {
-    plant_setup_t setup;
-    double step;           /**< plant step [s]. */
-    double level;          /**< Q [parts]. */
-    double congestion;     /**< R [parts s]. */
-    double applied_flux;   /**< what the valve let through in the last period [parts/s]. */
-    double parts_at_start; /**< on the belt and in the buffer [parts]. */
-    speed_window_t window;
-    plant_account_t account;
-} plant_t;
+typedef struct plant plant_t;
 
 /** What a scheme is. The belt behind the pointer is the scheme's own. */
 typedef struct {
@@ -65,25 +55,48 @@ typedef struct {
     double (*content)(const void *belt, const plant_t *plant);
 } scheme_t;
 
+/** The buffer and what sets the speed, the same for both schemes, and the belt of one of them. */
+struct plant {
+    plant_setup_t setup;
+    const scheme_t *scheme;
+    void *belt;            /**< the scheme's own. */
+    double step;           /**< plant step [s]. */
+    double level;          /**< Q [parts]. */
+    double congestion;     /**< R [parts s]. */
+    double applied_flux;   /**< what the valve let through in the last period [parts/s]. */
+    double parts_at_start; /**< on the belt and in the buffer [parts]. */
+    speed_window_t window;
+    plant_account_t account;
+};
+
 extern const scheme_t scheme_characteristics;
 extern const scheme_t scheme_upwind;
 
-/** False when memory lacks; then there is nothing to destroy. */
-bool plant_create(plant_t *plant, const plant_setup_t *setup);
+/** A plant of one scheme, at its start. False when memory lacks; then there is nothing to destroy. */
+bool plant_create(plant_t *plant, const plant_setup_t *setup, const scheme_t *scheme);
 void plant_destroy(plant_t *plant);
+
+/** Runs one control period with one command [parts/s]. */
+void plant_advance(plant_t *plant, double command);
+
+/** omega(R) now [m/s]. */
+double plant_speed(const plant_t *plant);
+
+/** phi now [parts/s]. */
+double plant_outlet_flux(const plant_t *plant);
+
+/** `count` >= 2 densities equally spaced from outlet to inlet [parts/m]. */
+void plant_profile(const plant_t *plant, double *density, size_t count);
+
+/** Parts in (fed, reworked, there at the start) minus all that became of them [parts]. */
+double plant_balance_error(const plant_t *plant);
+
+/** For the schemes: the buffer's share of one plant step. `left` parts left the belt; `middle` is the
+ * level at which the service is taken. */
+void plant_serve(plant_t *plant, double left, double middle);
 
 /** omega at a congestion [m/s]. */
 double line_speed(const line_t *line, double congestion);
-
-/** Runs one control period of a scheme with one command [parts/s]. */
-void plant_advance(plant_t *plant, const scheme_t *scheme, void *belt, double command);
-
-/** The buffer's share of one plant step: `left` parts left the belt. `middle` is the level at which
- * the service is taken. */
-void plant_serve(plant_t *plant, double left, double middle);
-
-/** Parts in (fed, reworked, there at the start) minus all that became of them [parts]. */
-double plant_balance_error(const plant_t *plant, const scheme_t *scheme, const void *belt);
 
 /** min(Q/service_time, mu) [parts/s]. */
 double line_service(const line_t *line, double level);
