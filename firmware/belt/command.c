@@ -18,7 +18,8 @@ belt_real_t belt_command_solve(const belt_prediction_t *prediction, const belt_l
     const belt_real_t travel = half_hold / belt_line_slowness(line, present->congestion);
     const belt_real_t gap = travel * prediction->inlet_slowness;
     const belt_real_t inflow =
-        line->connectivity * belt_nominal_law_flux(law, prediction->inlet_level);
+        line->connectivity * belt_command_wanted(law, present, prediction->inlet_level) +
+        present->disturbance;
     const belt_real_t level =
         prediction->inlet_level + gap * (inflow - belt_line_service(line, prediction->inlet_level));
     const belt_real_t arriving =
@@ -30,6 +31,6 @@ belt_real_t belt_command_solve(const belt_prediction_t *prediction, const belt_l
     const belt_real_t rework =
         prediction->inlet_rework + travel / line->spacing * prediction->inlet_rework_slope;
 
-    const belt_real_t wanted = arriving * belt_nominal_law_flux(law, level);
+    const belt_real_t wanted = arriving * belt_command_wanted(law, present, level);
     return (wanted - rework) / (survival * feeding);
 }

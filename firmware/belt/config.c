@@ -60,6 +60,13 @@ belt_real_t belt_config_loss_exponent(const belt_config_t *config) {
     return belt_config_loss_mean(config) * belt_config_dead_time_max(config);
 }
 
+belt_real_t belt_config_estimator_time(const belt_config_t *config) {
+    const bool is_left_0 =
+        (config->estimator_time >= BELT_REAL(0)) && (config->estimator_time <= BELT_REAL(0));
+    return is_left_0 ? BELT_REAL(0.74) * config->processing_time * config->belt_length
+                     : config->estimator_time;
+}
+
 belt_real_t belt_config_flux_bound(const belt_config_t *config) {
     const belt_real_t survival = BELT_REAL(1) + belt_expm1(-belt_config_loss_exponent(config));
     return BELT_REAL(10) * config->nominal_flux_max * belt_config_slowdown_max(config) / survival;
@@ -173,6 +180,30 @@ static belt_rule_t law_rule(const belt_config_t *config, belt_status_t code) {
     }
 }
 
+static belt_rule_t supervisor_rule(const belt_config_t *config, belt_status_t code) {
+    switch (code) {
+        case BELT_ESTIMATOR_KIND:
+            return closed(BELT_REAL(BELT_ESTIMATOR_OFF), BELT_REAL(config->estimator),
+                          BELT_REAL(BELT_ESTIMATOR_ON));
+        case BELT_ESTIMATOR_TIME: {
+            const uint16_t periods = (config->sample_periods > 0u) ? config->sample_periods : 1u;
+            belt_rule_t rule = closed(config->period * BELT_REAL(periods),
+                                      belt_config_estimator_time(config), BELT_DIMENSION_MAX);
+            /* Off, only a number is asked for. */
+            rule.lower = (config->estimator == BELT_ESTIMATOR_ON) ? rule.lower : BELT_REAL(0);
+            return rule;
+        }
+        case BELT_FLUX_RATE_MAX:
+            return closed(BELT_REAL(0), config->flux_rate_max, BELT_DIMENSION_MAX);
+        case BELT_SUBSTITUTE_FLUX:
+            return closed(BELT_REAL(0), config->substitute_flux,
+                          least(config->inlet_flux_max, belt_config_flux_bound(config)));
+        case BELT_LEVEL_STEP_MAX:
+            return closed(BELT_REAL(0), config->level_step_max, BELT_DIMENSION_MAX);
+        default: return closed(BELT_REAL(0), config->transfer_time, BELT_DIMENSION_MAX);
+    }
+}
+
 belt_rule_t belt_config_rule(const belt_config_t *config, belt_status_t code) {
     BELT_ASSERT(config != NULL);
     BELT_ASSERT((code >= BELT_RULE_FIRST) && (code <= BELT_RULE_LAST));
@@ -182,7 +213,7 @@ belt_rule_t belt_config_rule(const belt_config_t *config, belt_status_t code) {
     if (code <= BELT_CONGESTION_PER_NODE) {
         return discretisation_rule(config, code);
     }
-    return law_rule(config, code);
+    return (code <= BELT_PREDICTION_KIND) ? law_rule(config, code) : supervisor_rule(config, code);
 }
 
 bool belt_rule_holds(const belt_rule_t *rule) {

@@ -31,6 +31,8 @@
 #define BELT_SLOPE_PERIODS_MAX BELT_HALF
 /** inlet_flux_max of an actuator without a limit. */
 #define BELT_NO_FLUX_LIMIT BELT_REAL_MAX
+/** Greatest number of periods a step can make up for; beyond it the belt is lost from sight. */
+#define BELT_CATCH_UP_PERIODS 100u
 
 typedef enum {
     BELT_SLOPE_MARGIN,  /**< slope is what S exceeds Smin by, anew at each set-point. */
@@ -42,6 +44,12 @@ typedef enum {
     BELT_HOLD_CONGESTION     /**< a march at the present speed, for comparison: misses the changing
                                   dead time. */
 } belt_prediction_kind_t;
+
+typedef enum {
+    BELT_ESTIMATOR_OFF, /**< the paper's law: the level is what was measured, the model is exact. */
+    BELT_ESTIMATOR_ON /**< level and disturbance are estimated: noise is filtered, and any constant
+                             error of the model ends at the set-point. */
+} belt_estimator_kind_t;
 
 typedef struct {
     /* The line. Ranges: BELT_DIMENSION_MIN ... BELT_DIMENSION_MAX unless said otherwise. */
@@ -74,6 +82,26 @@ typedef struct {
     belt_real_t period;  /**< time between steps [s]; <= P D/node_count. */
     belt_real_t inlet_flux_max; /**< greatest command [parts/s], > 0; BELT_NO_FLUX_LIMIT if none. */
     belt_prediction_kind_t prediction; /**< BELT_PREDICT_CONGESTION, but for comparisons. */
+
+    /* What keeps it alone with a line. Left 0, each has its default. */
+    belt_estimator_kind_t estimator; /**< default: off. */
+    belt_real_t estimator_time; /**< time constant of the estimator [s], >= sample_periods periods;
+                                     default: belt_config_estimator_time()'s rule. */
+    belt_real_t
+        flux_rate_max; /**< greatest change of the command [parts/s^2]; default: no limit. */
+    belt_real_t substitute_flux; /**< fed while no level is to be had, 0 ... inlet_flux_max
+                                      [parts/s]; default: nothing. */
+    belt_real_t level_step_max;  /**< greatest change between two samples that is believed at once
+                                      [parts]; default: a quarter of level_capacity. */
+    belt_real_t transfer_time; /**< time constant with which the command goes over from one mode to
+                                    another [s]; default: a quarter of the empty line's dead time. */
+    uint16_t sample_periods;   /**< a new sample of the level is due every so many periods;
+                                    default: 1. */
+    uint16_t hold_periods;     /**< so long the law goes on without a good level before the
+                                    substitute takes over [periods]; default: half the empty line's
+                                    dead time. */
+    uint16_t
+        recovery_samples; /**< good samples in a row that end hold and substitute; default: 10. */
 } belt_config_t;
 
 /** One rule: `value` must lie between the limits; an open limit may not be touched. A side without
@@ -122,6 +150,11 @@ belt_real_t belt_config_flux_bound(const belt_config_t *config);
 /** The density of that flux at the slowest speed; rework, which at most makes ten of one, stays below
  * it too [parts/m]. */
 belt_real_t belt_config_density_bound(const belt_config_t *config);
+
+/** estimator_time, or where it is 0 by the rule: 0.74 times the dead time of the empty line, P D. At
+ * that a dead time that the model has 20 % wrong does not oscillate, and no more is asked of noise:
+ * docs/ROBUSTNESS.md has the map [s]. */
+belt_real_t belt_config_estimator_time(const belt_config_t *config);
 
 /** P D (1 + tau Qmax/congestion_scale): dead time of the fullest line [s]. */
 belt_real_t belt_config_dead_time_max(const belt_config_t *config);

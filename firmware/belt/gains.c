@@ -13,10 +13,7 @@ belt_real_t belt_gains_root(belt_real_t steepness) {
         const belt_real_t residual = x + steepness * fall;
         const belt_real_t rise = BELT_REAL(1) - steepness * (BELT_REAL(1) + fall);
         const belt_real_t next = x - residual / rise;
-        if (!(next > BELT_REAL(0)) || !(next < x)) {
-            break;
-        }
-        x = next;
+        x = ((next > BELT_REAL(0)) && (next < x)) ? next : x;
     }
     /* So close to 1 that rounding took the root: the law then is a straight line, and any small gain
      * gives it. */

@@ -9,9 +9,9 @@
 
 #include "config.h"
 
-/** Newton steps at most; from the start chosen below it converges in 8 or fewer for every slope a
- * configuration may have. */
-#define BELT_GAIN_ITERATIONS 12
+/** Newton steps; from the start chosen below it converges in 8 or fewer for every slope a configuration
+ * may have, and then stays. */
+#define BELT_GAIN_ITERATIONS 8
 
 typedef struct {
     belt_real_t below; /**< Lambda_l: gain for levels below the set-point [1/parts], > 0. */

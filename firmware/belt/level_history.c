@@ -18,6 +18,8 @@ void belt_level_history_init(belt_level_history_t *history, const belt_config_t 
     }
     history->newest = 0;
     history->window_sum = 0;
+    history->check_sum = 0;
+    history->check_count = 0;
     history->base = 0;
 }
 
@@ -30,9 +32,17 @@ void belt_level_history_begin(belt_level_history_t *history, belt_real_t level) 
 }
 
 void belt_level_history_push(belt_level_history_t *history, belt_real_t level) {
-    const belt_quanta_t quanta = in_quanta(history, level) - history->base;
-    history->window_sum +=
-        quanta - history->level[belt_level_history_index(history, history->whole)];
+    const belt_quanta_t quanta = belt_quanta_less(in_quanta(history, level), history->base);
+    const uint32_t leaving = belt_level_history_index(history, history->whole);
+    history->window_sum =
+        belt_quanta_sum(history->window_sum, belt_quanta_less(quanta, history->level[leaving]));
+    history->check_sum = belt_quanta_sum(history->check_sum, quanta);
+    history->check_count = history->check_count + 1u;
+    if (history->check_count > history->whole) {
+        history->window_sum = history->check_sum;
+        history->check_sum = 0;
+        history->check_count = 0;
+    }
     history->newest = history->newest + 1u;
     if (history->newest >= history->length) {
         history->newest = 0;
@@ -46,9 +56,10 @@ belt_real_t belt_level_history_congestion(const belt_level_history_t *history) {
     const belt_quanta_t beyond =
         history->level[belt_level_history_index(history, history->whole + 1u)];
     const belt_real_t trapezoids =
-        (belt_real_t)history->window_sum - BELT_HALF * (belt_real_t)(first + last);
-    const belt_real_t rest = history->part * ((belt_real_t)last + BELT_HALF * history->part *
-                                                                      (belt_real_t)(beyond - last));
+        (belt_real_t)history->window_sum - BELT_HALF * (belt_real_t)belt_quanta_sum(first, last);
+    const belt_real_t rest =
+        history->part * ((belt_real_t)last +
+                         BELT_HALF * history->part * (belt_real_t)belt_quanta_less(beyond, last));
     return (trapezoids + rest + (belt_real_t)history->base * history->window) *
            (history->period * history->quantum);
 }

@@ -30,12 +30,14 @@ typedef struct {
     belt_real_t flux_bound;         /**< beyond any flux of a sound line [parts/s]. */
     belt_real_t density_bound;      /**< beyond any of its densities [parts/m]. */
     belt_real_t loss_mean;          /**< mean of C(x) along the belt [1/s]. */
-    belt_real_t loss[BELT_NODE_CAPACITY + 1]; /**< mean of C(x) over each spacing, outlet first; the
-                                          last stands twice [1/s]. */
-    belt_real_t loss_sum[BELT_NODE_CAPACITY + 1]; /**< their sum up to each node [1/s]. */
     uint32_t node_count;
     uint32_t cell_slots;  /**< node_count + 1 cells lie on the belt; the next even number. */
     bool loss_is_uniform; /**< one C for the whole belt. */
+
+    /* Tables, last: what stands before them is under the seal. */
+    belt_real_t loss[BELT_NODE_CAPACITY + 1]; /**< mean of C(x) over each spacing, outlet first; the
+                                          last stands twice [1/s]. */
+    belt_real_t loss_sum[BELT_NODE_CAPACITY + 1]; /**< their sum up to each node [1/s]. */
 } belt_line_t;
 
 /** Derives the line from a configuration that belt_config_check() has passed. */

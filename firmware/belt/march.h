@@ -51,8 +51,9 @@ typedef struct {
     const belt_level_history_t *history;
     const belt_observer_t *observer;
     belt_prediction_t *prediction;
-    belt_real_t gain;       /**< level gained per density and spacing, alpha*spacing. */
-    belt_real_t pace_slope; /**< change of pace per congestion. */
+    belt_real_t gain;        /**< level gained per density and spacing, alpha*spacing. */
+    belt_real_t pace_slope;  /**< change of pace per congestion. */
+    belt_real_t disturbance; /**< flow into the buffer besides [parts/s]. */
 } belt_march_setting_t;
 
 /** What leaves with a stretch: one cell, or two behind each other. */
@@ -98,11 +99,13 @@ static inline void belt_march_pass(const belt_march_setting_t *at, belt_march_t 
     const belt_real_t dwell = width * pace;
     const belt_real_t gain = at->gain * width;
     const belt_real_t inflow = gain * leaving.mean;
-    const belt_real_t outflow = belt_line_service(at->line, march->level) * dwell;
+    const belt_real_t outflow =
+        (belt_line_service(at->line, march->level) - at->disturbance) * dwell;
     const belt_real_t middle = belt_line_level(at->line, march->level + gain * leaving.lead +
                                                              BELT_HALF * (inflow - outflow));
-    march->level = belt_line_level(at->line, march->level + inflow -
-                                                 belt_line_service(at->line, middle) * dwell);
+    march->level = belt_line_level(
+        at->line,
+        march->level + inflow - (belt_line_service(at->line, middle) - at->disturbance) * dwell);
     march->arrival += dwell;
     march->place += width;
     march->pace += at->pace_slope * (middle - march->tail) * dwell;

@@ -15,29 +15,39 @@ static void begin_cell(belt_observer_t *observer) {
     observer->jumps_place = BELT_REAL(0);
 }
 
-void belt_observer_init(belt_observer_t *observer) {
-    for (uint32_t i = 0; i < BELT_CELL_CAPACITY; ++i) {
-        observer->density[i] = BELT_REAL(0);
-        observer->step[i] = BELT_REAL(0);
-        observer->cut[i] = BELT_REAL(0);
-    }
+/** Lays whole cells from the outlet on; one density leaves, one is fed. */
+static void begin_belt(belt_observer_t *observer, belt_real_t leaving, belt_real_t fed) {
     observer->outlet = 0;
     observer->gone = BELT_REAL(0);
-    observer->outlet_density = BELT_REAL(0);
-    observer->fed_density = BELT_REAL(0);
+    observer->outlet_density = leaving;
+    observer->modelled_density = leaving;
+    observer->fed_density = fed;
     begin_cell(observer);
+}
+
+static void empty_cell(belt_observer_t *observer, uint32_t cell) {
+    observer->density[cell] = BELT_REAL(0);
+    observer->step[cell] = BELT_REAL(0);
+    observer->cut[cell] = BELT_REAL(0);
+}
+
+void belt_observer_init(belt_observer_t *observer) {
+    begin_belt(observer, BELT_REAL(0), BELT_REAL(0));
+    for (uint32_t i = 0; i < BELT_CELL_CAPACITY; ++i) {
+        empty_cell(observer, i);
+    }
 }
 
 void belt_observer_assume(belt_observer_t *observer, const belt_line_t *line,
                           const belt_real_t *density) {
-    belt_observer_init(observer);
+    begin_belt(observer, density[0], density[line->node_count]);
+    empty_cell(observer, line->node_count);
+    empty_cell(observer, line->cell_slots - 1u);
     for (uint32_t i = 0; i < line->node_count; ++i) {
         observer->density[i] = BELT_HALF * (density[i] + density[i + 1]);
         observer->cut[i] = BELT_HALF;
         observer->step[i] = BELT_HALF * (density[i + 1] - density[i]);
     }
-    observer->outlet_density = density[0];
-    observer->fed_density = density[line->node_count];
 }
 
 /** Density on the outlet side of a cell's cut. */
@@ -120,7 +130,7 @@ static void age_uniform(belt_observer_t *observer, ageing_t ageing) {
             observer->step[cell] *= kept;
             rework -= rework_less;
         }
-        from = (from > end) ? from - end : 0u;
+        from = 0;
         to = to - end;
     }
 }
@@ -219,19 +229,34 @@ static void close_cell(belt_observer_t *observer, const belt_line_t *line, uint3
 
     const uint32_t fresh = belt_observer_behind(line, open, 1u);
     observer->outlet = belt_observer_behind(line, observer->outlet, 1u);
-    observer->density[fresh] = BELT_REAL(0);
-    observer->step[fresh] = BELT_REAL(0);
-    observer->cut[fresh] = BELT_REAL(0);
+    empty_cell(observer, fresh);
     begin_cell(observer);
+}
+
+belt_real_t belt_observer_density_at(const belt_observer_t *observer, const belt_line_t *line,
+                                     belt_real_t place) {
+    const belt_real_t nodes = (belt_real_t)line->node_count;
+    const belt_real_t reach = observer->gone + belt_within(BELT_REAL(0), place, nodes);
+    const uint32_t whole = (uint32_t)(int32_t)reach;
+    if (whole >= line->node_count) {
+        /* The open cell has no cut yet; nothing of it has been fed when a cell has just closed. */
+        const uint32_t open = belt_observer_behind(line, observer->outlet, line->node_count);
+        return (observer->gone > BELT_REAL(0)) ? observer->density[open] : observer->fed_density;
+    }
+    const uint32_t cell = belt_observer_behind(line, observer->outlet, whole);
+    const bool is_behind_cut = (reach - (belt_real_t)whole) >= observer->cut[cell];
+    return outlet_side(observer, cell) + (is_behind_cut ? observer->step[cell] : BELT_REAL(0));
 }
 
 void belt_observer_advance(belt_observer_t *observer, const belt_line_t *line,
                            const belt_passage_t *passage) {
     const belt_real_t pace = passage->duration / passage->travel;
-    const belt_real_t left = passage->left_is_measured
-                                 ? passage->left_density
-                                 : leaving_density(observer, line, passage->travel, pace);
-    observer->outlet_density = belt_within(BELT_REAL(0), left, line->density_bound);
+    observer->modelled_density = belt_within(
+        BELT_REAL(0), leaving_density(observer, line, passage->travel, pace), line->density_bound);
+    observer->outlet_density =
+        passage->left_is_measured
+            ? belt_within(BELT_REAL(0), passage->left_density, line->density_bound)
+            : observer->modelled_density;
     age_cells(observer, line, passage, pace);
 
     const uint32_t open = belt_observer_behind(line, observer->outlet, line->node_count);

@@ -26,6 +26,9 @@
 #include "line_model.h"
 
 #define BELT_CELL_CAPACITY (BELT_NODE_CAPACITY + 2)
+/** Less than any belt moves in a period, BELT_DEAD_TIME_PERIODS being the longest dead time [node
+ * spacings]. */
+#define BELT_TRAVEL_MIN BELT_REAL(1e-4)
 
 typedef struct {
     belt_real_t density[BELT_CELL_CAPACITY]; /**< ring: mean density of each cell [parts/m]. */
@@ -37,8 +40,10 @@ typedef struct {
     belt_real_t gone;           /**< share of the outlet cell that has left, of the open cell that
                                       has been fed, [0, 1). */
     belt_real_t outlet_density; /**< mean density that left in the last period [parts/m]. */
-    belt_real_t fed_density;    /**< density fed in the last period [parts/m]. */
-    belt_real_t moment;         /**< open cell: integral of density times place in it, the place
+    belt_real_t
+        modelled_density;    /**< the same, the observer's own where outlet_density is measured. */
+    belt_real_t fed_density; /**< density fed in the last period [parts/m]. */
+    belt_real_t moment;      /**< open cell: integral of density times place in it, the place
                                       counted from its outlet side. */
     belt_real_t jumps;       /**< open cell: sum of the squared jumps of the density fed, each times
                                      its distances to both ends of the cell. */
@@ -65,6 +70,11 @@ void belt_observer_assume(belt_observer_t *observer, const belt_line_t *line,
 /** Moves the belt on by one period (Mp, along its characteristics). */
 void belt_observer_advance(belt_observer_t *observer, const belt_line_t *line,
                            const belt_passage_t *passage);
+
+/** Density at a place, 0 <= place <= node_count [spacings from the outlet]; for looking at, not for
+ * the step [parts/m]. */
+belt_real_t belt_observer_density_at(const belt_observer_t *observer, const belt_line_t *line,
+                                     belt_real_t place);
 
 /** Mean density of what is left of the outlet cell [parts/m]. */
 belt_real_t belt_observer_rest_of_outlet(const belt_observer_t *observer);

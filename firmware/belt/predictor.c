@@ -205,8 +205,13 @@ void belt_predictor_march(belt_prediction_t *prediction, const belt_line_t *line
                           const belt_present_t *present, belt_prediction_kind_t kind) {
     const belt_real_t pace_slope =
         (kind == BELT_HOLD_CONGESTION) ? BELT_REAL(0) : line->slowness_slope * line->spacing;
-    const belt_march_setting_t at = {
-        line, history, observer, prediction, line->connectivity * line->spacing, pace_slope};
+    const belt_march_setting_t at = {line,
+                                     history,
+                                     observer,
+                                     prediction,
+                                     line->connectivity * line->spacing,
+                                     pace_slope,
+                                     present->disturbance};
     belt_march_t march = start(line, present);
     prediction->level[0] = march.level;
     prediction->arrival[0] = march.arrival;

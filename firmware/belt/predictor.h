@@ -7,7 +7,7 @@
  * when (sigma)? In the paper (MF3)-(MF7), (C1)-(C3), with the speed written as its inverse:
  *
  *     sigma_x = slowness(p3)
- *     p1_x    = alpha*p2 - service(p1)*slowness(p3)
+ *     p1_x    = alpha*p2 + (disturbance - service(p1))*slowness(p3)
  *     p3_x    = (p1 - level at sigma - speed_window)*slowness(p3)
  *     p2      = survival*density + rework picked up on the way
  *
@@ -26,8 +26,10 @@
 
 /** What the march starts from. */
 typedef struct {
-    belt_real_t level;      /**< Q(t) [parts]. */
-    belt_real_t congestion; /**< R(t) [parts s]. */
+    belt_real_t level;       /**< Q(t) [parts]. */
+    belt_real_t congestion;  /**< R(t) [parts s]. */
+    belt_real_t disturbance; /**< flow into the buffer that the model does not know [parts/s]. */
+    belt_real_t disturbance_flux; /**< the outlet flux that would make it, disturbance/alpha. */
 } belt_present_t;
 
 /** Marches. `kind` says whether the speed follows the predicted congestion. */

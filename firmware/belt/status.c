@@ -35,9 +35,23 @@ const char *belt_status_name(belt_status_t status) {
         case BELT_PERIOD_PER_SLOPE: name = "BELT_PERIOD_PER_SLOPE"; break;
         case BELT_INLET_FLUX_MAX: name = "BELT_INLET_FLUX_MAX"; break;
         case BELT_PREDICTION_KIND: name = "BELT_PREDICTION_KIND"; break;
+        case BELT_ESTIMATOR_KIND: name = "BELT_ESTIMATOR_KIND"; break;
+        case BELT_ESTIMATOR_TIME: name = "BELT_ESTIMATOR_TIME"; break;
+        case BELT_FLUX_RATE_MAX: name = "BELT_FLUX_RATE_MAX"; break;
+        case BELT_SUBSTITUTE_FLUX: name = "BELT_SUBSTITUTE_FLUX"; break;
+        case BELT_LEVEL_STEP_MAX: name = "BELT_LEVEL_STEP_MAX"; break;
+        case BELT_TRANSFER_TIME: name = "BELT_TRANSFER_TIME"; break;
         case BELT_MISUSE: name = "BELT_MISUSE"; break;
         case BELT_NO_LEVEL: name = "BELT_NO_LEVEL"; break;
         case BELT_INPUT_REJECTED: name = "BELT_INPUT_REJECTED"; break;
+        case BELT_PERIODS_MISSED: name = "BELT_PERIODS_MISSED"; break;
+        case BELT_LINE_DEVIATES: name = "BELT_LINE_DEVIATES"; break;
+        case BELT_CORRUPT: name = "BELT_CORRUPT"; break;
+        case BELT_UNKNOWN_MODE: name = "BELT_UNKNOWN_MODE"; break;
+        case BELT_NOT_MANUAL: name = "BELT_NOT_MANUAL"; break;
+        case BELT_MANUAL_FLUX: name = "BELT_MANUAL_FLUX"; break;
+        case BELT_NO_SNAPSHOT: name = "BELT_NO_SNAPSHOT"; break;
+        case BELT_SNAPSHOT_OLD: name = "BELT_SNAPSHOT_OLD"; break;
     }
     return name;
 }

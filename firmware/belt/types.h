@@ -88,7 +88,7 @@ static inline belt_real_t belt_within(belt_real_t lower, belt_real_t value, belt
 }
 
 /**
- * What a call says. Codes from BELT_BELT_LENGTH to BELT_PREDICTION_KIND are the rules of a
+ * What a call says. Codes from BELT_BELT_LENGTH to BELT_TRANSFER_TIME are the rules of a
  * configuration, in the order in which they are checked; each is also a bit of the mask of broken
  * rules, BELT_RULE_BIT(code). belt_config_rule() gives value and limits of each.
  */
@@ -132,14 +132,30 @@ typedef enum {
     BELT_INLET_FLUX_MAX,   /**< inlet_flux_max > 0. */
     BELT_PREDICTION_KIND,  /**< prediction is one of its words. */
 
+    /* Rules of estimator and supervisor; each field may be left 0. */
+    BELT_ESTIMATOR_KIND,  /**< estimator is one of its words. */
+    BELT_ESTIMATOR_TIME,  /**< estimator_time is at least the time between two samples. */
+    BELT_FLUX_RATE_MAX,   /**< flux_rate_max is a number in its range. */
+    BELT_SUBSTITUTE_FLUX, /**< 0 <= substitute_flux <= inlet_flux_max. */
+    BELT_LEVEL_STEP_MAX,  /**< level_step_max is a number in its range. */
+    BELT_TRANSFER_TIME,   /**< transfer_time is a number in its range. */
+
     /* Not rules. */
-    BELT_MISUSE,        /**< a null pointer, or a step before a successful init. */
-    BELT_NO_LEVEL,      /**< no level has been trusted yet: nothing is fed. */
-    BELT_INPUT_REJECTED /**< an input was not trusted: command.error_bits say which. */
+    BELT_MISUSE,         /**< a null pointer, or a step before a successful init. */
+    BELT_NO_LEVEL,       /**< no level has been trusted yet: the law cannot begin. */
+    BELT_INPUT_REJECTED, /**< an input was not trusted: command.error_bits say which. */
+    BELT_PERIODS_MISSED, /**< steps came late or twice: command.error_bits say how. */
+    BELT_LINE_DEVIATES,  /**< valve or line do not do what they are told: see command.error_bits. */
+    BELT_CORRUPT,        /**< the controller's own memory has changed: start it anew. */
+    BELT_UNKNOWN_MODE,   /**< a mode nobody can ask for; the old request stands. */
+    BELT_NOT_MANUAL,     /**< a manual flux while manual was not asked for; nothing changed. */
+    BELT_MANUAL_FLUX,    /**< a manual flux that is no number within 0 ... inlet_flux_max. */
+    BELT_NO_SNAPSHOT,    /**< no slot holds a whole snapshot of this build and configuration. */
+    BELT_SNAPSHOT_OLD    /**< restored in part: the stop was too long for history and belt. */
 } belt_status_t;
 
 #define BELT_RULE_FIRST BELT_BELT_LENGTH
-#define BELT_RULE_LAST BELT_PREDICTION_KIND
+#define BELT_RULE_LAST BELT_TRANSFER_TIME
 #define BELT_RULE_BIT(code) ((uint64_t)1 << (unsigned)(code))
 
 BELT_STATIC_ASSERT(rules_fit_a_mask, BELT_RULE_LAST < 64);
