@@ -3,10 +3,11 @@
 
 #include <string.h>
 
-/* Options of one command, and where their value goes. */
+/* Options of one command, and where their values go. */
 typedef struct {
     const char *name;
-    const char **value; /* NULL: --set, which may stand more than once */
+    const char **values;
+    size_t *count; /* NULL: stands once at most */
 } option_t;
 
 typedef struct {
@@ -41,42 +42,37 @@ static bool asks_for_help(const words_t *words) {
 }
 
 /* The value of the option the words stand at. */
-static bool read_option(words_t *words, const option_t *option, const char **settings,
-                        arguments_t *arguments, FILE *messages) {
+static bool read_option(words_t *words, const option_t *option, FILE *messages) {
     if (words->at + 1 >= words->count || words->text[words->at + 1][0] == '\0' ||
         strncmp(words->text[words->at + 1], "--", 2) == 0) {
         fprintf(messages, "belt_sim: %s has no value\n", option->name);
         return false;
     }
-    words->at++;
-    const char *const value = words->text[words->at];
-    if (option->value == NULL) {
-        settings[arguments->settings.count] = value;
-        arguments->settings.count++;
-        return true;
-    }
-    if (*option->value != NULL) {
+    if (option->count == NULL && *option->values != NULL) {
         fprintf(messages, "belt_sim: %s stands twice\n", option->name);
         return false;
     }
-    *option->value = value;
+    words->at++;
+    option->values[option->count != NULL ? (*option->count)++ : 0] = words->text[words->at];
     return true;
 }
 
-static bool find_option(words_t *words, const char **settings, arguments_t *arguments,
+static bool find_option(words_t *words, const char **texts, arguments_t *arguments,
                         FILE *messages) {
+    scenario_settings_t *const settings = &arguments->settings;
     const option_t options[] = {
-        {"--set", NULL},
-        {"--trace", &arguments->paths.trace},
-        {"--density", &arguments->paths.density},
-        {"--summary", &arguments->paths.summary},
+        {"--set", texts, &settings->count},
+        {"--fault", texts + words->count, &settings->fault_count},
+        {"--trace", &arguments->paths.trace, NULL},
+        {"--density", &arguments->paths.density, NULL},
+        {"--summary", &arguments->paths.summary, NULL},
     };
     const char *const word = words->text[words->at];
     const bool writes_files = arguments->command == COMMAND_RUN;
-    const size_t count = writes_files ? sizeof options / sizeof options[0] : 1;
+    const size_t count = writes_files ? sizeof options / sizeof options[0] : 2;
     for (size_t index = 0; index < count && arguments->command != COMMAND_LIST; index++) {
         if (strcmp(word, options[index].name) == 0) {
-            return read_option(words, &options[index], settings, arguments, messages);
+            return read_option(words, &options[index], messages);
         }
     }
     fprintf(messages, "belt_sim: unknown option %s for %s\n", word, words->text[1]);
@@ -92,11 +88,12 @@ static bool read_scenario(const char *word, arguments_t *arguments, FILE *messag
     return true;
 }
 
-bool arguments_read(int argument_count, char *const argument[], const char **settings,
+bool arguments_read(int argument_count, char *const argument[], const char **texts,
                     arguments_t *arguments, FILE *messages) {
     words_t words = {argument_count, argument, 2};
     memset(arguments, 0, sizeof *arguments);
-    arguments->settings.text = settings;
+    arguments->settings.text = texts;
+    arguments->settings.fault = texts + argument_count;
     if (asks_for_help(&words)) {
         arguments->command = COMMAND_HELP;
         return true;
@@ -108,7 +105,7 @@ bool arguments_read(int argument_count, char *const argument[], const char **set
     }
     for (; words.at < words.count; words.at++) {
         const char *const word = words.text[words.at];
-        const bool is_read = is_option(word) ? find_option(&words, settings, arguments, messages)
+        const bool is_read = is_option(word) ? find_option(&words, texts, arguments, messages)
                                              : read_scenario(word, arguments, messages);
         if (!is_read) {
             return false;
@@ -122,13 +119,21 @@ bool arguments_read(int argument_count, char *const argument[], const char **set
 }
 
 void arguments_help(FILE *out) {
-    fputs("belt_sim run SCENARIO [--set section.key=value]... [--trace FILE] [--density FILE]\n"
-          "             [--summary FILE]   simulate; the summary goes to standard output unless\n"
-          "                                a file is named\n"
-          "belt_sim check SCENARIO [--set section.key=value]...   say whether every rule holds\n"
-          "belt_sim list                                          name the shipped scenarios\n"
-          "\n"
-          "SCENARIO with a / or ending in .ini is a file, anything else a shipped scenario.\n"
-          "Exit: 0 done, 1 the run failed, 2 bad input or usage (no output file is touched).\n",
-          out);
+    fputs(
+        "belt_sim run SCENARIO [--set section.key=value]... [--fault FAULT]... [--trace FILE]\n"
+        "             [--density FILE] [--summary FILE]\n"
+        "                     simulate; the summary goes to standard output unless a file is "
+        "named\n"
+        "belt_sim check SCENARIO [--set section.key=value]... [--fault FAULT]...\n"
+        "                     say whether every rule holds\n"
+        "belt_sim list        name the shipped scenarios\n"
+        "\n"
+        "SCENARIO with a / or ending in .ini is a file, anything else a shipped scenario.\n"
+        "FAULT is signal:word[=value]@start+length, for example buffer_level:stuck@5+2.\n"
+        "  signals: buffer_level, outlet_flux, applied_flux, density (as measured), valve, period\n"
+        "  words:   off, stuck, garbage, wrong=factor, slow=time constant, delayed=time,\n"
+        "           intermittent=share lost; valve without garbage, period without slow, delayed;\n"
+        "           period:off is a power cut, period:stuck a task that hangs\n"
+        "Exit: 0 done, 1 the run failed, 2 bad input or usage (no output file is touched).\n",
+        out);
 }

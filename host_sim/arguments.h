@@ -20,9 +20,9 @@ typedef struct {
     recording_paths_t paths;
 } arguments_t;
 
-/** Takes the command line apart. `settings` has room for `argument_count` texts; the results point
+/** Takes the command line apart. `texts` has room for twice `argument_count` texts; the results point
  * into it and into `argument`. Returns false after a line on `messages`. */
-bool arguments_read(int argument_count, char *const argument[], const char **settings,
+bool arguments_read(int argument_count, char *const argument[], const char **texts,
                     arguments_t *arguments, FILE *messages);
 
 /** Writes how the program is used. */

@@ -163,9 +163,9 @@ static void advance(void *belt, plant_t *plant, double flux, bool fresh) {
     plant->account.reworked +=
         0.5 * line->rework_rate * line->belt_length * line->belt_length * left * dt;
     self->travel += reach;
-    const double inflow = line->connectivity * left * reach;
-    plant_serve(plant, left * reach,
-                plant->level + 0.5 * (inflow - dt * line_service(line, plant->level)));
+    const double inflow = line->connectivity * left * reach + dt * plant->disturbance;
+    const double middle = plant->level + 0.5 * (inflow - dt * plant_service(plant, plant->level));
+    plant_serve(plant, left * reach, fmax(middle, 0.0));
     parcel_at(self, self->count - 1)->newer = flux / line_speed(line, plant->congestion);
     drop_what_left(self, self->travel - line->belt_length);
 }

@@ -9,7 +9,7 @@ bool check_report(const scenario_t *scenario, FILE *out) {
     model_config(scenario, &config);
     fprintf(out, "%s\nrules of the controller's configuration:\n", scenario->name);
     int broken = model_print_rules(&config, out);
-    for (size_t i = 0; i < scenario->run.setpoint_count; ++i) {
+    for (size_t i = 0; i < scenario->run.setpoints.count; ++i) {
         broken += model_refuses_setpoint(scenario, i, out) ? 1 : 0;
     }
     if (broken > 0) {

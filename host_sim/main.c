@@ -36,7 +36,7 @@ static int exit_of_output(output_status_t status) {
 
 static int record(const scenario_t *scenario, recording_t *recording) {
     const loop_sink_t sink = recording_sink(recording);
-    loop_totals_t totals = {0.0, 0.0, 0};
+    loop_totals_t totals = {0};
     const loop_status_t status = loop_run(scenario, &sink, stderr, &totals);
     if (status != LOOP_DONE) {
         recording_abandon(recording, stderr);
@@ -92,13 +92,13 @@ static int obey(const arguments_t *arguments) {
 }
 
 int main(int argument_count, char *argument[]) {
-    const char **const settings = calloc((size_t)argument_count + 1, sizeof *settings);
-    if (settings == NULL) {
+    const char **const texts = calloc(2 * (size_t)argument_count + 1, sizeof *texts);
+    if (texts == NULL) {
         return exit_of_loop(LOOP_NO_MEMORY);
     }
     arguments_t arguments;
-    const bool is_read = arguments_read(argument_count, argument, settings, &arguments, stderr);
+    const bool is_read = arguments_read(argument_count, argument, texts, &arguments, stderr);
     const int exit_code = is_read ? obey(&arguments) : EXIT_REFUSED;
-    free(settings);
+    free(texts);
     return exit_code;
 }

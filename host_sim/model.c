@@ -2,6 +2,9 @@
 #include "model.h"
 
 #include <math.h>
+#include <string.h>
+
+#include "schedule.h"
 
 /** What a rule speaks of, as the scenario's reader knows it, and why there is such a rule. */
 typedef struct {
@@ -53,6 +56,13 @@ static const rule_text_t rule_texts[] = {
      "the period is short enough for the slope of the law"},
     {BELT_INLET_FLUX_MAX, "controller.inlet_flux_max", "a limit above 0"},
     {BELT_PREDICTION_KIND, "kind of prediction", "predictor or frozen"},
+    {BELT_ESTIMATOR_KIND, "kind of estimator", "off or on"},
+    {BELT_ESTIMATOR_TIME, "controller.estimator_time", "at least the time between two samples"},
+    {BELT_FLUX_RATE_MAX, "controller.flux_rate_max", "left out (0), or a dimension"},
+    {BELT_SUBSTITUTE_FLUX, "controller.substitute_flux",
+     "a flux that the valve and a sound line can pass"},
+    {BELT_LEVEL_STEP_MAX, "controller.level_step_max", "left out (0), or a dimension"},
+    {BELT_TRANSFER_TIME, "controller.transfer_time", "left out (0), or a dimension"},
 };
 
 belt_real_t model_real(double value) {
@@ -64,6 +74,26 @@ belt_real_t model_real(double value) {
 
 static uint16_t model_count(long count) {
     return (uint16_t)((count < 0) ? 0 : (count > UINT16_MAX) ? UINT16_MAX : count);
+}
+
+/** `duration` in whole periods; 0, the controller's own rule, where it is left out. */
+static uint16_t model_periods(const scenario_t *scenario, double duration) {
+    const double period = scenario->controller.period;
+    return (duration > 0.0) ? model_count((long)schedule_periods(duration, period)) : 0;
+}
+
+/** What keeps the controller alone with a line. */
+static void supervision_config(const scenario_t *scenario, belt_config_t *config) {
+    config->estimator =
+        (scenario->controller.estimator == ESTIMATOR_ON) ? BELT_ESTIMATOR_ON : BELT_ESTIMATOR_OFF;
+    config->estimator_time = model_real(scenario->controller.estimator_time);
+    config->flux_rate_max = model_real(scenario->controller.flux_rate_max);
+    config->substitute_flux = model_real(scenario->controller.substitute_flux);
+    config->level_step_max = model_real(scenario->controller.level_step_max);
+    config->transfer_time = model_real(scenario->controller.transfer_time);
+    config->sample_periods = model_periods(scenario, scenario->controller.level_sample_time);
+    config->hold_periods = model_periods(scenario, scenario->controller.hold_time);
+    config->recovery_samples = model_count(scenario->controller.recovery_samples);
 }
 
 void model_config(const scenario_t *scenario, belt_config_t *config) {
@@ -92,6 +122,7 @@ void model_config(const scenario_t *scenario, belt_config_t *config) {
     config->inlet_flux_max = model_real(scenario->controller.inlet_flux_max);
     config->prediction =
         (scenario->controller.law == LAW_FROZEN) ? BELT_HOLD_CONGESTION : BELT_PREDICT_CONGESTION;
+    supervision_config(scenario, config);
 }
 
 static bool has_lower(const belt_rule_t *rule) {
@@ -148,12 +179,40 @@ bool model_refuses_setpoint(const scenario_t *scenario, size_t index, FILE *mess
     belt_config_t config;
     char name[256];
     model_config(scenario, &config);
-    config.level_setpoint = model_real(scenario->run.setpoint_levels[index]);
+    config.level_setpoint = model_real(scenario->run.setpoints.values[index]);
     if (belt_config_check(&config, NULL) == BELT_OK) {
         return false;
     }
     (void)snprintf(name, sizeof name, "%s: run.setpoint_levels, at %.9g s", scenario->name,
-                   scenario->run.setpoint_times[index]);
+                   scenario->run.setpoints.times[index]);
     model_print_refusals(&config, name, messages);
     return true;
+}
+
+/** Whether plant and controller are told the same line. */
+static bool plant_is_the_line(const scenario_t *scenario) {
+    return memcmp(&scenario->line, &scenario->plant.line, sizeof scenario->line) == 0;
+}
+
+static bool expects_trouble(const scenario_t *scenario) {
+    const scenario_law_t law = scenario->controller.law;
+    const double limit = scenario->plant.inlet_flux_max;
+    return (law == LAW_UNCOMPENSATED) || (law == LAW_OPEN_LOOP) ||
+           (scenario->run.fault_count > 0) || (scenario->plant.level_noise > 0.0) ||
+           (scenario->plant.level_quantum > 0.0) || (scenario->plant.disturbance.count > 0) ||
+           (scenario->plant.service.count > 0) || !plant_is_the_line(scenario) ||
+           (limit < scenario->controller.inlet_flux_max) ||
+           (scenario->controller.level_sample_time < scenario->plant.level_sample_time);
+}
+
+bool model_expects(const scenario_t *scenario, belt_status_t status) {
+    switch (status) {
+        case BELT_OK: return true;
+        case BELT_NO_LEVEL:
+        case BELT_INPUT_REJECTED:
+        case BELT_PERIODS_MISSED:
+        case BELT_LINE_DEVIATES: return expects_trouble(scenario);
+        default: break;
+    }
+    return false;
 }

@@ -17,6 +17,11 @@ void model_config(const scenario_t *scenario, belt_config_t *config);
 /** A double in the controller's numbers; what is beyond them becomes their greatest. */
 belt_real_t model_real(double value);
 
+/** Whether a step of this scenario may say this. Without faults, noise, disturbance and difference
+ * between plant and model nothing but BELT_OK is sound; a command that is not the controller's own
+ * (laws to compare with) deviates from it too. */
+bool model_expects(const scenario_t *scenario, belt_status_t status);
+
 /** Prints every rule, one a line: its value, its limits and how far the nearer one is. Returns how
  * many are broken. */
 int model_print_rules(const belt_config_t *config, FILE *out);

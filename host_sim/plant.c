@@ -7,8 +7,8 @@ double line_speed(const line_t *line, double congestion) {
     return 1.0 / (line->processing_time * (1.0 + congestion / line->congestion_scale));
 }
 
-double line_service(const line_t *line, double level) {
-    return fmin(level / line->service_time, line->service_rate_max);
+double plant_service(const plant_t *plant, double level) {
+    return fmin(level / plant->setup.line->service_time, plant->service_rate_max);
 }
 
 bool plant_create(plant_t *plant, const plant_setup_t *setup, const scheme_t *scheme) {
@@ -18,6 +18,8 @@ bool plant_create(plant_t *plant, const plant_setup_t *setup, const scheme_t *sc
     plant->step = setup->period / (double)setup->substeps;
     plant->level = setup->buffer_level;
     plant->applied_flux = 0.0;
+    plant->disturbance = 0.0;
+    plant->service_rate_max = setup->line->service_rate_max;
     plant->account = nothing;
     if (!speed_window_create(&plant->window, setup->line->speed_window, plant->step,
                              setup->buffer_level)) {
@@ -39,10 +41,13 @@ void plant_destroy(plant_t *plant) {
 
 void plant_serve(plant_t *plant, double left, double middle) {
     const line_t *line = plant->setup.line;
-    const double served = plant->step * line_service(line, middle);
-    const double level = plant->level + line->connectivity * left - served;
+    const double served = plant->step * plant_service(plant, middle);
+    const double undisturbed = plant->level + line->connectivity * left - served;
+    const double disturbed = fmax(plant->step * plant->disturbance, -fmax(undisturbed, 0.0));
+    const double level = undisturbed + disturbed;
     plant->account.diverted += (1.0 - line->connectivity) * left;
     plant->account.served += served;
+    plant->account.disturbed += disturbed;
     plant->account.spilled += fmax(level - line->level_capacity, 0.0);
     plant->level = fmin(level, line->level_capacity);
     speed_window_push(&plant->window, plant->level);
@@ -55,6 +60,14 @@ void plant_advance(plant_t *plant, double command) {
         plant->scheme->advance(plant->belt, plant, plant->applied_flux, i == 0);
         plant->account.fed += plant->applied_flux * plant->step;
     }
+}
+
+void plant_disturb(plant_t *plant, double flow) {
+    plant->disturbance = flow;
+}
+
+void plant_change_service(plant_t *plant, double rate) {
+    plant->service_rate_max = rate;
 }
 
 double plant_speed(const plant_t *plant) {
@@ -71,7 +84,7 @@ void plant_profile(const plant_t *plant, double *density, size_t count) {
 
 double plant_balance_error(const plant_t *plant) {
     const plant_account_t *account = &plant->account;
-    const double in = plant->parts_at_start + account->fed + account->reworked;
+    const double in = plant->parts_at_start + account->fed + account->reworked + account->disturbed;
     const double out = account->served + account->spilled + account->diverted + account->lost;
     return in - out - plant->level - plant->scheme->content(plant->belt, plant);
 }

@@ -2,9 +2,12 @@
 /*
  * plant.h - the conveyor and the buffer that are simulated, in double.
  *
- *     Q'    = alpha*phi - min(Q/service_time, mu),     0 <= Q <= level_capacity, the rest is spilled
+ *     Q'    = alpha*phi + d - min(Q/service_time, mu), 0 <= Q <= level_capacity, the rest is spilled
  *     rho_t = omega(R)*rho_x + A*(D - x)*rho(0,t) - C(x)*rho,    omega(R)*rho(D,t) = flux fed
  *     phi   = omega(R)*rho(0,t),     omega(R) = 1/(P*(1 + R/congestion_scale))
+ *
+ * d is a disturbance: a flow into the buffer that comes from elsewhere; one that is negative takes
+ * away what there is. d and mu may change from period to period.
  *
  * Two schemes. `characteristics` follows the material exactly and is the truth that the controller
  * is judged by; `upwind` is the paper's own first-order scheme. Neither shares a line or a
@@ -33,10 +36,11 @@ typedef struct {
 typedef struct {
     double fed;
     double served;
-    double spilled;  /**< the buffer was full. */
-    double diverted; /**< left the belt but did not reach the buffer: the share 1 - alpha. */
-    double lost;     /**< scrapped on the belt. */
-    double reworked; /**< put back on the belt. */
+    double spilled;   /**< the buffer was full. */
+    double diverted;  /**< left the belt but did not reach the buffer: the share 1 - alpha. */
+    double lost;      /**< scrapped on the belt. */
+    double reworked;  /**< put back on the belt. */
+    double disturbed; /**< came into the buffer from elsewhere; negative: was taken away. */
 } plant_account_t;
 
 typedef struct plant plant_t;
@@ -59,12 +63,14 @@ typedef struct {
 struct plant {
     plant_setup_t setup;
     const scheme_t *scheme;
-    void *belt;            /**< the scheme's own. */
-    double step;           /**< plant step [s]. */
-    double level;          /**< Q [parts]. */
-    double congestion;     /**< R [parts s]. */
-    double applied_flux;   /**< what the valve let through in the last period [parts/s]. */
-    double parts_at_start; /**< on the belt and in the buffer [parts]. */
+    void *belt;              /**< the scheme's own. */
+    double step;             /**< plant step [s]. */
+    double level;            /**< Q [parts]. */
+    double congestion;       /**< R [parts s]. */
+    double applied_flux;     /**< what the valve let through in the last period [parts/s]. */
+    double disturbance;      /**< d now [parts/s]. */
+    double service_rate_max; /**< mu now [parts/s]. */
+    double parts_at_start;   /**< on the belt and in the buffer [parts]. */
     speed_window_t window;
     plant_account_t account;
 };
@@ -79,6 +85,12 @@ void plant_destroy(plant_t *plant);
 /** Runs one control period with one command [parts/s]. */
 void plant_advance(plant_t *plant, double command);
 
+/** From here on the flow from elsewhere is `flow` [parts/s]. */
+void plant_disturb(plant_t *plant, double flow);
+
+/** From here on mu is `rate` >= 0 [parts/s]. */
+void plant_change_service(plant_t *plant, double rate);
+
 /** omega(R) now [m/s]. */
 double plant_speed(const plant_t *plant);
 
@@ -88,7 +100,8 @@ double plant_outlet_flux(const plant_t *plant);
 /** `count` >= 2 densities equally spaced from outlet to inlet [parts/m]. */
 void plant_profile(const plant_t *plant, double *density, size_t count);
 
-/** Parts in (fed, reworked, there at the start) minus all that became of them [parts]. */
+/** Parts in (fed, reworked, from elsewhere, there at the start) minus all that became of them
+ * [parts]. */
 double plant_balance_error(const plant_t *plant);
 
 /** For the schemes: the buffer's share of one plant step. `left` parts left the belt; `middle` is the
@@ -98,7 +111,7 @@ void plant_serve(plant_t *plant, double left, double middle);
 /** omega at a congestion [m/s]. */
 double line_speed(const line_t *line, double congestion);
 
-/** min(Q/service_time, mu) [parts/s]. */
-double line_service(const line_t *line, double level);
+/** min(level/service_time, mu) with the plant's mu of now [parts/s]. */
+double plant_service(const plant_t *plant, double level);
 
 #endif

@@ -79,7 +79,8 @@ static bool take_row(void *context, const loop_row_t *row, const double *density
 }
 
 loop_sink_t recording_sink(recording_t *recording) {
-    const loop_sink_t sink = {recording, recording->density.stream != NULL, take_row};
+    const loop_sink_t sink = {recording, recording->density.stream != NULL,
+                              recording->trace.stream != NULL, take_row};
     return sink;
 }
 

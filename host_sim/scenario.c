@@ -6,6 +6,7 @@
 #include "scenario_ini.h"
 #include "scenario_keys.h"
 #include "scenario_message.h"
+#include "scenario_rules.h"
 #include "scenario_text.h"
 #include "scenario_value.h"
 
@@ -16,8 +17,8 @@ typedef enum { BY_NOBODY, BY_DEFAULT, BY_FILE, BY_SETTING } author_t;
 typedef struct {
     scenario_t scenario;
     author_t author[SCENARIO_KEY_CAPACITY];
-    size_t
-        list_count[SCENARIO_KEY_CAPACITY]; /* as stated; the two lists of [run] share one count */
+    size_t list_count[SCENARIO_KEY_CAPACITY]; /* as stated: in the scenario, times and values share
+                                                 one count */
 } draft_t;
 
 /* Room for the section or the key of a setting; longer names are unknown anyway. */
@@ -41,9 +42,7 @@ static bool store(draft_t *draft, size_t index, const char *text, author_t autho
         }
     }
     draft->author[index] = author;
-    if (key->kind == KEY_LIST) {
-        draft->list_count[index] = scenario_value_count(key, &draft->scenario);
-    }
+    draft->list_count[index] = scenario_value_count(key, &draft->scenario);
     return true;
 }
 
@@ -96,11 +95,23 @@ static bool setting_is_split(const char *text, char section[SETTING_NAME_SIZE],
     return true;
 }
 
+static bool is_text(const char *text, const scenario_place_t *place) {
+    const bool is_sound = scenario_text_fault(text, strlen(text)) == strlen(text);
+    if (!is_sound) {
+        scenario_complain(place, NULL, "must be UTF-8 without control characters");
+    }
+    return is_sound;
+}
+
+static bool take_fault(draft_t *draft, const char *text, const scenario_place_t *place) {
+    const scenario_key_t *const key = scenario_key_at(scenario_key_find("run", "faults"));
+    return is_text(text, place) && scenario_value_add(key, text, place, &draft->scenario);
+}
+
 static bool take_setting(draft_t *draft, const char *text, const scenario_place_t *place) {
     char section[SETTING_NAME_SIZE];
     char key[SETTING_NAME_SIZE];
-    if (scenario_text_fault(text, strlen(text)) < strlen(text)) {
-        scenario_complain(place, NULL, "must be UTF-8 without control characters");
+    if (!is_text(text, place)) {
         return false;
     }
     if (!setting_is_split(text, section, key)) {
@@ -133,50 +144,20 @@ static void derive(draft_t *draft) {
     scenario_t *const scenario = &draft->scenario;
     lay_line_under_plant(draft);
     scenario->law.slope_is_absolute = author_of(draft, "law", "setpoint_slope") != BY_NOBODY;
+    scenario->run.manual_flux_is_stated = author_of(draft, "run", "manual_flux") != BY_NOBODY;
     if (author_of(draft, "plant", "node_count") == BY_NOBODY) {
         scenario->plant.node_count = PLANT_DEFAULTS[scenario->plant.scheme].node_count;
     }
     if (author_of(draft, "plant", "substeps") == BY_NOBODY) {
         scenario->plant.substeps = PLANT_DEFAULTS[scenario->plant.scheme].substeps;
     }
-}
-
-static bool setpoints_are_consistent(const draft_t *draft, const scenario_place_t *place) {
-    const scenario_t *const scenario = &draft->scenario;
-    const size_t times = draft->list_count[scenario_key_find("run", "setpoint_times")];
-    const size_t levels = draft->list_count[scenario_key_find("run", "setpoint_levels")];
-    const scenario_entry_t entry = {"run", "setpoint_times", NULL};
-    if (times != levels) {
-        scenario_complain(place, &entry, "%zu values, but setpoint_levels has %zu; must be as many",
-                          times, levels);
-        return false;
+    if (author_of(draft, "controller", "level_sample_time") == BY_NOBODY) {
+        scenario->controller.level_sample_time = scenario->plant.level_sample_time;
     }
-    for (size_t index = 1; index < times; index++) {
-        const double before = scenario->run.setpoint_times[index - 1];
-        const double time = scenario->run.setpoint_times[index];
-        if (time <= before) {
-            scenario_complain(place, &entry, "%.17g after %.17g; times must ascend", time, before);
-            return false;
-        }
+    if (author_of(draft, "run", "snapshot_period") == BY_NOBODY &&
+        fault_last_cut(scenario->run.faults, scenario->run.fault_count) >= 0.0) {
+        scenario->run.snapshot_period = scenario->controller.period;
     }
-    return true;
-}
-
-static bool is_consistent(const draft_t *draft, const scenario_place_t *place) {
-    const scenario_t *const scenario = &draft->scenario;
-    if (scenario->initial.buffer_level > scenario->plant.line.level_capacity) {
-        const scenario_entry_t entry = {"initial", "buffer_level", NULL};
-        scenario_complain(place, &entry, "%.17g must be at most the plant's level_capacity %.17g",
-                          scenario->initial.buffer_level, scenario->plant.line.level_capacity);
-        return false;
-    }
-    if (scenario->run.duration / scenario->controller.period > SCENARIO_STEPS_MAX) {
-        const scenario_entry_t entry = {"run", "duration", NULL};
-        scenario_complain(place, &entry, "%.17g is more than %g periods of %.17g",
-                          scenario->run.duration, SCENARIO_STEPS_MAX, scenario->controller.period);
-        return false;
-    }
-    return setpoints_are_consistent(draft, place);
 }
 
 static bool draft_begin(draft_t *draft, FILE *messages) {
@@ -197,23 +178,31 @@ void scenario_defaults(scenario_t *scenario) {
     (void)scenario_read("", 0, "default", scenario, stderr);
 }
 
+static bool take_settings(draft_t *draft, const scenario_settings_t *settings, FILE *messages) {
+    const scenario_place_t in_settings = {"--set", 0, messages};
+    const scenario_place_t in_faults = {"--fault", 0, messages};
+    bool is_taken = true;
+    for (size_t index = 0; index < settings->count && is_taken; index++) {
+        is_taken = take_setting(draft, settings->text[index], &in_settings);
+    }
+    for (size_t index = 0; index < settings->fault_count && is_taken; index++) {
+        is_taken = take_fault(draft, settings->fault[index], &in_faults);
+    }
+    return is_taken;
+}
+
 bool scenario_read_with(const char *text, size_t length, const char *name,
                         const scenario_settings_t *settings, scenario_t *scenario, FILE *messages) {
-    const scenario_place_t in_settings = {"--set", 0, messages};
     const scenario_place_t in_all = {name, 0, messages};
     draft_t draft;
     const scenario_taker_t taker = {&draft, take_entry};
     if (!draft_begin(&draft, messages) ||
-        !scenario_ini_read(text, length, name, &taker, messages)) {
+        !scenario_ini_read(text, length, name, &taker, messages) ||
+        !take_settings(&draft, settings, messages)) {
         return false;
     }
-    for (size_t index = 0; index < settings->count; index++) {
-        if (!take_setting(&draft, settings->text[index], &in_settings)) {
-            return false;
-        }
-    }
     derive(&draft);
-    if (!is_consistent(&draft, &in_all)) {
+    if (!scenario_rules_hold(&draft.scenario, draft.list_count, &in_all)) {
         return false;
     }
     draft.scenario.name = "scenario";
@@ -223,6 +212,6 @@ bool scenario_read_with(const char *text, size_t length, const char *name,
 
 bool scenario_read(const char *text, size_t length, const char *name, scenario_t *scenario,
                    FILE *messages) {
-    const scenario_settings_t nothing = {NULL, 0};
+    const scenario_settings_t nothing = {0};
     return scenario_read_with(text, length, name, &nothing, scenario, messages);
 }

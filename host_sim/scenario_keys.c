@@ -15,6 +15,8 @@ static const scenario_range_t SHARE = {0.0, 1.0, false};
 static const scenario_range_t CONTROLLER_NODES = {1.0, 10000.0, true};
 static const scenario_range_t PLANT_NODES = {1.0, 100000.0, true};
 static const scenario_range_t SUBSTEPS = {1.0, 10000.0, true};
+static const scenario_range_t SEEDS = {0.0, 4294967295.0, true};
+static const scenario_range_t SAMPLES = {1.0, 65535.0, true};
 
 #define AT(member) offsetof(scenario_t, member)
 
@@ -26,6 +28,11 @@ static const scenario_range_t SUBSTEPS = {1.0, 10000.0, true};
     {section, name, KEY_WORD, AT(member), 0, fallback, &ANY, words}
 #define LIST(section, name, member, count, fallback, range)                                        \
     {section, name, KEY_LIST, AT(member), AT(count), fallback, &(range), NULL}
+
+#define WORDS(section, name, member, count, words)                                                 \
+    {section, name, KEY_WORDS, AT(member), AT(count), NULL, &ANY, words}
+#define FAULTS(section, name, member, count)                                                       \
+    {section, name, KEY_FAULTS, AT(member), AT(count), NULL, &ANY, NULL}
 
 /* The keys of [line] stand once and are laid out twice: for the model, and for the plant, whose
  * rows have no default because a key left out there is the model's. */
@@ -60,10 +67,30 @@ static const scenario_key_t KEYS[] = {
     NUMBER("controller", "period", controller.period, "0.0025", POSITIVE),
     NUMBER("controller", "inlet_flux_max", controller.inlet_flux_max, NULL, POSITIVE),
 
+    WORD("controller", "estimator", controller.estimator, "off", "off on"),
+    NUMBER("controller", "estimator_time", controller.estimator_time, NULL, POSITIVE),
+    NUMBER("controller", "flux_rate_max", controller.flux_rate_max, NULL, POSITIVE),
+    NUMBER("controller", "substitute_flux", controller.substitute_flux, "0", NOT_NEGATIVE),
+    NUMBER("controller", "level_step_max", controller.level_step_max, NULL, POSITIVE),
+    NUMBER("controller", "transfer_time", controller.transfer_time, NULL, POSITIVE),
+    NUMBER("controller", "level_sample_time", controller.level_sample_time, NULL, POSITIVE),
+    NUMBER("controller", "hold_time", controller.hold_time, NULL, POSITIVE),
+    COUNT("controller", "recovery_samples", controller.recovery_samples, NULL, SAMPLES),
+
     WORD("plant", "scheme", plant.scheme, "characteristics", "characteristics upwind"),
     COUNT("plant", "node_count", plant.node_count, NULL, PLANT_NODES),
     COUNT("plant", "substeps", plant.substeps, NULL, SUBSTEPS),
     NUMBER("plant", "inlet_flux_max", plant.inlet_flux_max, NULL, POSITIVE),
+    NUMBER("plant", "level_noise", plant.level_noise, "0", NOT_NEGATIVE),
+    NUMBER("plant", "level_quantum", plant.level_quantum, "0", NOT_NEGATIVE),
+    NUMBER("plant", "level_sample_time", plant.level_sample_time, "0", NOT_NEGATIVE),
+    COUNT("plant", "seed", plant.seed, "1", SEEDS),
+    LIST("plant", "disturbance_times", plant.disturbance.times, plant.disturbance.count, NULL,
+         NOT_NEGATIVE),
+    LIST("plant", "disturbance_values", plant.disturbance.values, plant.disturbance.count, NULL,
+         ANY),
+    LIST("plant", "service_times", plant.service.times, plant.service.count, NULL, NOT_NEGATIVE),
+    LIST("plant", "service_values", plant.service.values, plant.service.count, NULL, NOT_NEGATIVE),
     LINE_KEYS("plant", plant.line, LEFT_OUT),
 
     NUMBER("initial", "buffer_level", initial.buffer_level, "0", NOT_NEGATIVE),
@@ -72,8 +99,15 @@ static const scenario_key_t KEYS[] = {
          initial.observer_density.count, "0", NOT_NEGATIVE),
 
     NUMBER("run", "duration", run.duration, "10", POSITIVE),
-    LIST("run", "setpoint_times", run.setpoint_times, run.setpoint_count, NULL, NOT_NEGATIVE),
-    LIST("run", "setpoint_levels", run.setpoint_levels, run.setpoint_count, NULL, ANY),
+    LIST("run", "setpoint_times", run.setpoints.times, run.setpoints.count, NULL, NOT_NEGATIVE),
+    LIST("run", "setpoint_levels", run.setpoints.values, run.setpoints.count, NULL, ANY),
+    LIST("run", "mode_times", run.modes.times, run.modes.count, NULL, NOT_NEGATIVE),
+    WORDS("run", "mode_values", run.modes.words, run.modes.count, "off manual automatic"),
+    NUMBER("run", "manual_flux", run.manual_flux, NULL, NOT_NEGATIVE),
+    LIST("run", "manual_times", run.manual.times, run.manual.count, NULL, NOT_NEGATIVE),
+    LIST("run", "manual_values", run.manual.values, run.manual.count, NULL, NOT_NEGATIVE),
+    NUMBER("run", "snapshot_period", run.snapshot_period, NULL, POSITIVE),
+    FAULTS("run", "faults", run.faults, run.fault_count),
 };
 
 #define ROWS (sizeof KEYS / sizeof KEYS[0])

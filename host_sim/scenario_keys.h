@@ -9,13 +9,15 @@
 #include <stddef.h>
 
 /** Room for the rows of the table, for arrays that hold something for each key. */
-#define SCENARIO_KEY_CAPACITY 64
+#define SCENARIO_KEY_CAPACITY 128
 
 typedef enum {
     KEY_NUMBER, /**< a double. */
     KEY_COUNT,  /**< a long, written without point or exponent. */
     KEY_WORD,   /**< an enumeration: the place of the word in `words`. */
-    KEY_LIST    /**< 1 to LIST_CAPACITY doubles; their number goes to `count_offset`. */
+    KEY_LIST,   /**< 1 to LIST_CAPACITY doubles; their number goes to `count_offset`. */
+    KEY_WORDS,  /**< the same of words. */
+    KEY_FAULTS  /**< 1 to FAULT_CAPACITY faults; their number goes there too. */
 } scenario_kind_t;
 
 typedef struct {
@@ -29,11 +31,11 @@ typedef struct {
     const char *name;
     scenario_kind_t kind;
     size_t offset; /**< of the value in scenario_t; two keys with one offset replace each other. */
-    size_t count_offset;  /**< KEY_LIST: of the number of values in scenario_t. */
+    size_t count_offset;  /**< of a list: of the number of values in scenario_t. */
     const char *fallback; /**< the default as one would write it; NULL: by a rule in scenario.c. */
     const scenario_range_t *range; /**< of each number. */
-    const char
-        *words; /**< KEY_WORD: the words in the order of the enumeration, one blank between. */
+    const char *
+        words; /**< KEY_WORD, KEY_WORDS: the words in the order of the enumeration, one blank between. */
 } scenario_key_t;
 
 /** Number of rows of the table. */

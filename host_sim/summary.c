@@ -39,6 +39,14 @@ static void take_level(summary_t *summary, const loop_row_t *row) {
     summary->final_error = error;
 }
 
+static void take_answer(summary_t *summary, const loop_row_t *row) {
+    const size_t mode = (size_t)row->mode;
+    summary->error_bits |= (uint32_t)row->error_bits;
+    if (mode < SUMMARY_MODES) {
+        summary->mode_rows[mode]++;
+    }
+}
+
 void summary_take(summary_t *summary, const loop_row_t *row) {
     const bool is_first = summary->row_count == 0;
     /* Set-points are copied, never computed: a change is any difference. */
@@ -48,11 +56,14 @@ void summary_take(summary_t *summary, const loop_row_t *row) {
     }
     if (is_first) {
         summary->inlet_flux_peak = row->inlet_flux;
+        summary->level_peak = row->buffer_level;
     } else {
         take_interval(summary, row);
     }
     summary->inlet_flux_peak = fmax(summary->inlet_flux_peak, row->inlet_flux);
+    summary->level_peak = fmax(summary->level_peak, row->buffer_level);
     take_level(summary, row);
+    take_answer(summary, row);
     summary->last = *row;
     summary->row_count++;
 }
@@ -61,6 +72,18 @@ void summary_take(summary_t *summary, const loop_row_t *row) {
 static bool write_figure(FILE *file, const char *name, bool has_value, double value) {
     return has_value && isfinite(value) ? fprintf(file, "  \"%s\": %.17g,\n", name, value) > 0
                                         : fprintf(file, "  \"%s\": null,\n", name) > 0;
+}
+
+static bool write_modes(const summary_t *summary, FILE *file) {
+    static const char *const names[SUMMARY_MODES] = {"off", "manual", "automatic", "hold",
+                                                     "substitute"};
+    bool is_written = true;
+    for (size_t mode = 0; mode < SUMMARY_MODES; mode++) {
+        is_written = fprintf(file, "%s  \"rows_%s\": %zu", mode > 0 ? ",\n" : "", names[mode],
+                             summary->mode_rows[mode]) > 0 &&
+                     is_written;
+    }
+    return is_written;
 }
 
 bool summary_write(const summary_t *summary, const loop_totals_t *totals, FILE *file) {
@@ -84,5 +107,9 @@ bool summary_write(const summary_t *summary, const loop_totals_t *totals, FILE *
                                   figures[index].value) &&
                      is_written;
     }
-    return fprintf(file, "  \"steps\": %zu\n}\n", totals->steps) > 0 && is_written;
+    return fprintf(file, "  \"steps\": %zu,\n", totals->steps) > 0 &&
+           write_figure(file, "level_peak", true, summary->level_peak) &&
+           write_figure(file, "disturbed", true, totals->disturbed) &&
+           fprintf(file, "  \"error_bits\": %lu,\n", (unsigned long)summary->error_bits) > 0 &&
+           write_modes(summary, file) && fputs("\n}\n", file) != EOF && is_written;
 }

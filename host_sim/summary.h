@@ -10,12 +10,16 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 
 #include "loop.h"
 
 /** Half the width of the band in which a level counts as settled, as a share of the set-point. */
 #define SUMMARY_BAND 0.02
+
+/** Modes of the controller, by their numbers. */
+#define SUMMARY_MODES 5
 
 typedef struct {
     bool is_settled;        /**< the last row's level is within the band. */
@@ -28,6 +32,9 @@ typedef struct {
     double inlet_flux_peak; /**< greatest command [parts/s]. */
     double inlet_flux_variation; /**< sum of the command's changes, each without sign [parts/s]. */
     double final_error;          /**< Q - Q* in the last row [parts]. */
+    double level_peak;           /**< greatest Q [parts]. */
+    uint32_t error_bits;         /**< all that any step said. */
+    size_t mode_rows[SUMMARY_MODES]; /**< rows in each mode. */
     size_t row_count;
 
     double change_time;  /**< of the row with the last change of the set-point. */

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "trace.h"
 
+#include <math.h>
+
 /* Names and members stand side by side: a column cannot come under another's name. */
 static const struct {
     const char *name;
@@ -16,6 +18,14 @@ static const struct {
     {"predicted_level", offsetof(loop_row_t, predicted_level)},
     {"arrival_time", offsetof(loop_row_t, arrival_time)},
     {"survival", offsetof(loop_row_t, survival)},
+    {"level_measured", offsetof(loop_row_t, level_measured)},
+    {"applied_flux", offsetof(loop_row_t, applied_flux)},
+    {"disturbance", offsetof(loop_row_t, disturbance)},
+    {"mode", offsetof(loop_row_t, mode)},
+    {"error_bits", offsetof(loop_row_t, error_bits)},
+    {"level_estimate", offsetof(loop_row_t, level_estimate)},
+    {"level_quality", offsetof(loop_row_t, level_quality)},
+    {"observer_error", offsetof(loop_row_t, observer_error)},
 };
 
 #define COLUMN_COUNT (sizeof COLUMNS / sizeof COLUMNS[0])
@@ -34,7 +44,9 @@ bool trace_write_row(FILE *file, const loop_row_t *row) {
     for (size_t column = 0; column < COLUMN_COUNT; column++) {
         const char *const member = (const char *)row + COLUMNS[column].offset;
         const double value = *(const double *)(const void *)member;
-        is_written = fprintf(file, "%s%.17g", column > 0 ? "," : "", value) > 0 && is_written;
+        const double shown =
+            isnan(value) ? fabs(value) : value; /* the sign of a NaN says nothing */
+        is_written = fprintf(file, "%s%.17g", column > 0 ? "," : "", shown) > 0 && is_written;
     }
     return fputc('\n', file) != EOF && is_written;
 }
