@@ -27,7 +27,7 @@ static scenario_t scenario;
 static belt_real_t profile[BELT_NODE_CAPACITY + 1];
 
 static bool begin(const char *name) {
-    const scenario_settings_t settings = {NULL, 0};
+    const scenario_settings_t settings = {0};
     belt_config_t config;
     if (!scenario_file_read(name, &settings, &scenario, stderr)) {
         return false;

@@ -21,6 +21,14 @@ SUMMARY_KEYS = [
     "spilled",
     "balance_error",
     "steps",
+    "level_peak",
+    "disturbed",
+    "error_bits",
+    "rows_off",
+    "rows_manual",
+    "rows_automatic",
+    "rows_hold",
+    "rows_substitute",
 ]
 TRACE_COLUMNS = [
     "time",
@@ -33,6 +41,14 @@ TRACE_COLUMNS = [
     "predicted_level",
     "arrival_time",
     "survival",
+    "level_measured",
+    "applied_flux",
+    "disturbance",
+    "mode",
+    "error_bits",
+    "level_estimate",
+    "level_quality",
+    "observer_error",
 ]
 
 
@@ -160,6 +176,8 @@ def test_help_is_not_a_mistake():
         (["run", "paper", "heavy_window"], '"heavy_window" is one argument too many'),
         (["list", "paper"], '"paper" is one argument too many'),
         (["list", "--set", "run.duration=1"], "unknown option --set"),
+        (["list", "--fault", "valve:off@1+1"], "unknown option --fault"),
+        (["run", "paper", "--fault"], "--fault has no value"),
         (["check", "paper", "--trace", "x.csv"], "unknown option --trace for check"),
         (["run", "paper", "--trase", "x.csv"], "unknown option --trase for run"),
         (["run", "paper", "--trace=x.csv"], "unknown option --trace=x.csv"),

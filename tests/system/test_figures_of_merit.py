@@ -135,6 +135,14 @@ UNITS = {
     "predicted_level": 100,
     "arrival_time": 1 / 60,
     "survival": 1,
+    "level_measured": 100,
+    "applied_flux": 100 * 60,
+    "disturbance": 100 * 60,
+    "mode": 1,
+    "error_bits": 1,
+    "level_estimate": 100,
+    "level_quality": 1,
+    "observer_error": 100 * 0.3048,
 }
 
 
@@ -156,7 +164,10 @@ def test_other_units_give_the_same_run(program, node_count, limit):
     assert paper.trace.keys() == UNITS.keys()
     for name, unit in UNITS.items():
         difference = greatest(other[name] / unit - paper[name])
-        hold(f"{name}, share of its peak", difference / greatest(paper[name]), limit)
+        peak = greatest(paper[name]) or 1.0  # some are 0 all along
+        # a place on a jump lies on one side of it or on the other, as rounding has it
+        bar = max(limit, 1e-3) if name == "observer_error" else limit
+        hold(f"{name}, share of its peak", difference / peak, bar)
 
 
 def law(scenario, name):

@@ -45,7 +45,9 @@ HOSTILE = {
     "format_string": b"[line]\nbelt_length = %s%n%s%n\n",
     "format_string_key": b"[line]\n%s%n = 2\n",
     "format_string_section": b"[%s%n]\n",
-    "later_key": b"[controller]\nestimator = off\n",
+    "later_key": b"[controller]\nprofile = off\n",
+    "faults_without_end": b"[run]\nfaults = " + b"valve:off@1+1," * 12 + b"valve\n",
+    "format_string_fault": b"[run]\nfaults = %s:%n@%s+%n\n",
 }
 
 

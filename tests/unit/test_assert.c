@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The assertions of the front door and of the configuration fire. The library proper is built
- * without them, so these two sources are compiled here once more, with a BELT_ASSERT that tells
+/* The assertions of the front door, of snapshots and of the configuration fire. The library proper is
+ * built without them, so these sources are compiled here once more, with a BELT_ASSERT that tells
  * which claim was broken and, as a board's would, does not return. */
 #include <setjmp.h>
 #include <string.h>
@@ -16,6 +16,7 @@ static void stop(const char *claim) {
 #define BELT_ASSERT(claim) ((claim) ? (void)0 : stop(#claim))
 #include "belt/belt.c"
 #include "belt/config.c"
+#include "belt/snapshot.c"
 
 #include "paper_case.h"
 #include "unity.h"
@@ -24,6 +25,7 @@ static belt_config_t config;
 static belt_controller_t controller;
 static belt_measurement_t measurement;
 static belt_command_t command;
+static belt_snapshot_t slots[2];
 
 void setUp(void) {
     config = paper_case();
@@ -76,6 +78,26 @@ static void test_setpoint_before_init_stops(void) {
     ASSERT_STOPS(belt_set_setpoint(NULL, BELT_REAL(0.3)));
 }
 
+static void test_mode_and_manual_flux_before_init_stop(void) {
+    ASSERT_STOPS(belt_set_mode(&controller, BELT_MODE_OFF));
+    ASSERT_STOPS(belt_set_mode(NULL, BELT_MODE_OFF));
+    ASSERT_STOPS(belt_set_manual_flux(&controller, BELT_REAL(0.3)));
+    ASSERT_STOPS(belt_set_manual_flux(NULL, BELT_REAL(0.3)));
+}
+
+static void test_snapshot_without_pointers_stops(void) {
+    ASSERT_STOPS(belt_snapshot_take(NULL, slots));
+    ASSERT_STOPS(belt_snapshot_take(&controller, NULL));
+    ASSERT_STOPS(belt_snapshot_restore(NULL, &config, slots, 0));
+    ASSERT_STOPS(belt_snapshot_restore(&controller, NULL, slots, 0));
+    ASSERT_STOPS(belt_snapshot_restore(&controller, &config, NULL, 0));
+}
+
+static void test_snapshot_of_what_is_not_running_stops_nothing(void) {
+    ASSERT_RETURNS(belt_snapshot_take(&controller, slots));
+    ASSERT_RETURNS(belt_snapshot_restore(&controller, &config, slots, 0));
+}
+
 static void test_check_without_configuration_stops(void) {
     ASSERT_STOPS(belt_config_check(NULL, NULL));
 }
@@ -99,6 +121,17 @@ static void test_what_is_wrong_with_the_plant_or_the_configuration_stops_nothing
     ASSERT_RETURNS(belt_step(&controller, &measurement, &command));
     ASSERT_RETURNS(belt_set_setpoint(&controller, BELT_REAL(-1)));
     ASSERT_RETURNS(belt_set_setpoint(&controller, BELT_REAL(0.4)));
+    ASSERT_RETURNS(belt_set_mode(&controller, (belt_mode_t)77));
+    ASSERT_RETURNS(belt_set_manual_flux(&controller, BELT_REAL(0.4)));
+}
+
+static void test_memory_that_has_changed_stops_nothing(void) {
+    ASSERT_RETURNS(belt_init(&controller, &config));
+    controller.limits.hold_periods ^= 1u;
+    ASSERT_RETURNS(belt_step(&controller, &measurement, &command));
+    ASSERT_RETURNS(belt_step(&controller, &measurement, &command));
+    ASSERT_RETURNS(belt_set_mode(&controller, BELT_MODE_OFF));
+    ASSERT_RETURNS(belt_set_setpoint(&controller, BELT_REAL(0.4)));
 }
 
 int main(void) {
@@ -107,8 +140,12 @@ int main(void) {
     RUN_TEST(test_step_without_pointers_stops);
     RUN_TEST(test_step_before_init_stops);
     RUN_TEST(test_setpoint_before_init_stops);
+    RUN_TEST(test_mode_and_manual_flux_before_init_stop);
+    RUN_TEST(test_snapshot_without_pointers_stops);
+    RUN_TEST(test_snapshot_of_what_is_not_running_stops_nothing);
     RUN_TEST(test_check_without_configuration_stops);
     RUN_TEST(test_rule_without_configuration_or_of_no_rule_stops);
     RUN_TEST(test_what_is_wrong_with_the_plant_or_the_configuration_stops_nothing);
+    RUN_TEST(test_memory_that_has_changed_stops_nothing);
     return UNITY_END();
 }

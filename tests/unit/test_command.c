@@ -20,6 +20,7 @@ static void rest_at_setpoint(void) {
     belt_nominal_law_init(&law, &config);
     belt_level_history_init(&history, &config);
     belt_level_history_begin(&history, config.level_setpoint);
+    memset(&present, 0, sizeof present);
     present.level = config.level_setpoint;
     present.congestion = belt_level_history_congestion(&history);
     memset(&prediction, 0, sizeof prediction);
@@ -166,6 +167,68 @@ static void test_rework_is_that_of_half_a_hold_further_in(void) {
     TEST_ASSERT_DOUBLE_WITHIN(steep(), 0.6 - (0.05 + 0.5 * spacings) / 0.265, solve());
 }
 
+/* --- with a disturbance --- */
+
+/** A flow into the buffer that the model does not know. */
+static void disturb(double flow) {
+    present.disturbance = BELT_REAL(flow);
+    present.disturbance_flux = BELT_REAL(flow / 0.5);
+}
+
+static void test_disturbance_need_not_be_fed(void) {
+    /* At rest 0.1 of the 0.3 served comes of itself: 0.6 - 0.1/0.5. */
+    disturb(0.1);
+    TEST_ASSERT_DOUBLE_WITHIN(steep(), 0.4, solve());
+}
+
+static void test_leak_is_fed_besides(void) {
+    disturb(-0.1);
+    TEST_ASSERT_DOUBLE_WITHIN(steep(), 0.8, solve());
+}
+
+static void test_more_disturbance_than_is_wanted_leaves_nothing_to_feed(void) {
+    /* 0.35 come of themselves where 0.3 are served; the level rises for half a hold, no more is
+     * wanted than nothing. */
+    disturb(0.35);
+    TEST_ASSERT_TRUE(solve() == 0.0);
+    prediction.inlet_rework = BELT_REAL(0.05);
+    TEST_ASSERT_DOUBLE_WITHIN(steep(), -0.05 / 0.265, solve());
+}
+
+static void test_level_half_a_hold_later_is_that_of_law_and_disturbance(void) {
+    /* alpha*(law - disturbance/alpha) + disturbance: as if there were none, but for what is fed. */
+    prediction.inlet_level = BELT_REAL(0.25);
+    prediction.inlet_tail = BELT_REAL(0.25);
+    const double later = 0.25 + HALF_HOLD * (0.5 * nominal(0.25) - 0.25);
+    disturb(0.125);
+    TEST_ASSERT_DOUBLE_WITHIN(steep(), nominal(later) - 0.25, solve());
+}
+
+static void test_level_half_a_hold_later_takes_each_of_the_two_for_itself(void) {
+    /* Where less than nothing would be wanted they are not each other's opposite: so one alone. */
+    prediction.inlet_level = BELT_REAL(0.25);
+    prediction.inlet_tail = BELT_REAL(0.25);
+    present.disturbance = BELT_REAL(0.125);
+    const double filled = 0.25 + HALF_HOLD * (0.5 * nominal(0.25) + 0.125 - 0.25);
+    TEST_ASSERT_DOUBLE_WITHIN(steep(), nominal(filled), solve());
+    present.disturbance = BELT_REAL(0);
+    present.disturbance_flux = BELT_REAL(0.25);
+    const double unfed = 0.25 + HALF_HOLD * (0.5 * (nominal(0.25) - 0.25) - 0.25);
+    TEST_ASSERT_DOUBLE_WITHIN(steep(), nominal(unfed) - 0.25, solve());
+}
+
+static void test_law_less_the_disturbance_is_wanted_and_never_less_than_nothing(void) {
+    present.disturbance_flux = BELT_REAL(0.25);
+    const belt_real_t at_setpoint = belt_command_wanted(&law, &present, config.level_setpoint);
+    TEST_ASSERT_TRUE(at_setpoint == law.setpoint_flux - BELT_REAL(0.25));
+    present.disturbance_flux = law.setpoint_flux;
+    TEST_ASSERT_TRUE(belt_command_wanted(&law, &present, config.level_setpoint) == BELT_REAL(0));
+    present.disturbance_flux = BELT_REAL(1);
+    TEST_ASSERT_TRUE(belt_command_wanted(&law, &present, config.level_setpoint) == BELT_REAL(0));
+    present.disturbance_flux = BELT_REAL(NAN);
+    TEST_ASSERT_TRUE(belt_command_wanted(&law, &present, config.level_setpoint) == BELT_REAL(0));
+}
+
 /* --- all together --- */
 
 static void test_stationary_belt_is_fed_the_flux_that_holds_it(void) {
@@ -198,6 +261,12 @@ int main(void) {
     RUN_TEST(test_arriving_speed_is_that_of_half_a_hold_later);
     RUN_TEST(test_loss_counts_the_longer_way_of_what_is_fed_later);
     RUN_TEST(test_rework_is_that_of_half_a_hold_further_in);
+    RUN_TEST(test_disturbance_need_not_be_fed);
+    RUN_TEST(test_leak_is_fed_besides);
+    RUN_TEST(test_more_disturbance_than_is_wanted_leaves_nothing_to_feed);
+    RUN_TEST(test_level_half_a_hold_later_is_that_of_law_and_disturbance);
+    RUN_TEST(test_level_half_a_hold_later_takes_each_of_the_two_for_itself);
+    RUN_TEST(test_law_less_the_disturbance_is_wanted_and_never_less_than_nothing);
     RUN_TEST(test_stationary_belt_is_fed_the_flux_that_holds_it);
     return UNITY_END();
 }

@@ -1,51 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-#include "belt/level_history.h"
-
-#include "paper_case.h"
-#include "reals.h"
-#include "unity.h"
-
-static belt_config_t config;
-static belt_level_history_t history;
-
-static void begin(double window, double period) {
-    config.speed_window = BELT_REAL(window);
-    config.period = BELT_REAL(period);
-    belt_level_history_init(&history, &config);
-}
+/* The window and its congestion. */
+#include "level_history_case.h"
 
 void setUp(void) {
-    config = paper_case();
-    begin(0.2, 0.0025);
+    set_up_case();
 }
 
 void tearDown(void) {
-}
-
-/** Rounding of a level to quanta. */
-static double half_quantum(void) {
-    return 0.5 * (double)history.quantum;
-}
-
-/** What congestion may be off: half a quantum a level over the window, six roundings of the result
- * on the way from the integers, and the window's end, a hair of 4 EPSILON and two roundings. */
-static double tolerance(double congestion) {
-    return (half_quantum() + 6 * EPSILON) * (double)config.speed_window + 6 * EPSILON * congestion;
-}
-
-static double congestion(void) {
-    return (double)belt_level_history_congestion(&history);
-}
-
-static double level_at(double age) {
-    return (double)belt_level_history_at(&history, BELT_REAL(age));
-}
-
-/** Levels on a line through time: `slope` a period up to `newest` now. */
-static void push_ramp(double newest, double slope, unsigned count) {
-    for (unsigned i = 0; i < count; ++i) {
-        belt_level_history_push(&history, BELT_REAL(newest - slope * (double)(count - 1u - i)));
-    }
 }
 
 /* --- the window --- */
@@ -75,8 +36,25 @@ static void test_levels_are_rounded_to_the_nearest_quantum(void) {
     const double quantum = (double)history.quantum;
     belt_level_history_push(&history, BELT_REAL(1000.75 * quantum));
     TEST_ASSERT_DOUBLE_WITHIN(0.01 * quantum, 1001.0 * quantum, level_at(0));
-    belt_level_history_push(&history, BELT_REAL(1000.25 * quantum));
+    belt_level_history_push(&history, BELT_REAL(1000.45 * quantum));
     TEST_ASSERT_DOUBLE_WITHIN(0.01 * quantum, 1000.0 * quantum, level_at(0));
+    belt_level_history_push(&history, BELT_REAL(1000.55 * quantum));
+    TEST_ASSERT_DOUBLE_WITHIN(0.01 * quantum, 1001.0 * quantum, level_at(0));
+}
+
+static void test_rate_is_one_over_the_period(void) {
+    begin(0.125, 0.0078125);
+    TEST_ASSERT_TRUE(history.period == BELT_REAL(0.0078125));
+    TEST_ASSERT_TRUE(history.rate == BELT_REAL(128));
+}
+
+static void test_init_touches_no_level_behind_those_in_use(void) {
+    memset(&history, 0x5A, sizeof history);
+    const belt_quanta_t untouched = history.level[0];
+    begin(0.2, 0.0025);
+    TEST_ASSERT_EQUAL_UINT32(82u, history.length);
+    TEST_ASSERT_TRUE(history.level[81] == 0);
+    TEST_ASSERT_TRUE(history.level[82] == untouched);
 }
 
 /* --- congestion --- */
@@ -153,146 +131,14 @@ static void test_levels_before_the_window_do_not_count(void) {
     TEST_ASSERT_DOUBLE_WITHIN(tolerance(0.05), 0.05, congestion());
 }
 
-/* --- the sum --- */
-
-static void test_sum_after_a_million_pushes_is_that_of_a_fresh_history(void) {
-    static belt_level_history_t fresh;
-    uint64_t random = 20240607u;
-    belt_level_history_init(&fresh, &config);
-    for (unsigned i = 0; i < 1000000u; ++i) {
-        const belt_real_t level = random_share(&random);
-        belt_level_history_push(&history, level);
-        if (i >= 1000000u - 82u) { /* all that the fresh one can hold */
-            belt_level_history_push(&fresh, level);
-        }
-    }
-    TEST_ASSERT_TRUE(history.window_sum == fresh.window_sum);
-    TEST_ASSERT_TRUE(belt_level_history_congestion(&history) ==
-                     belt_level_history_congestion(&fresh));
-}
-
-static void test_sum_is_that_of_the_levels_in_the_window(void) {
-    uint64_t random = 5u;
-    for (unsigned i = 0; i < 1000u; ++i) {
-        belt_level_history_push(&history, random_share(&random));
-        belt_quanta_t sum = 0;
-        for (uint32_t age = 0; age <= history.whole; ++age) {
-            sum += history.level[belt_level_history_index(&history, age)];
-        }
-        TEST_ASSERT_TRUE(history.window_sum == sum);
-    }
-}
-
-/* --- look-back --- */
-
-static void test_look_back_finds_every_level_of_the_window(void) {
-    for (unsigned turn = 0; turn < 200u; ++turn) { /* wherever the ring begins */
-        push_ramp(0.9, 0.008, 81);
-        for (int age = 0; age <= 80; ++age) {
-            /* Half a quantum, and a rounding of 1. */
-            TEST_ASSERT_DOUBLE_WITHIN(half_quantum() + EPSILON, 0.9 - 0.008 * age, level_at(age));
-        }
-        belt_level_history_push(&history, BELT_REAL(0));
-    }
-}
-
-static void test_look_back_is_linear_between_periods(void) {
-    push_ramp(0.9, 0.008, 82);
-    for (double age = 0.0; age < 80.0; age += 0.173) {
-        /* Two levels' quanta; the age itself is rounded at 80, times the slope. */
-        TEST_ASSERT_DOUBLE_WITHIN(2 * half_quantum() + 2 * EPSILON + 80.0 * EPSILON * 0.008,
-                                  0.9 - 0.008 * age, level_at(age));
-    }
-}
-
-static void test_look_back_reaches_the_end_of_a_broken_window(void) {
-    begin(12.6 * 0.0025, 0.0025);
-    push_ramp(0.9, 0.03, 14);
-    TEST_ASSERT_DOUBLE_WITHIN(2 * half_quantum() + 16 * EPSILON, 0.9 - 0.03 * 12.6,
-                              (double)belt_level_history_at(&history, history.window));
-}
-
-static void test_look_back_to_the_whole_window_reads_no_older_level(void) {
-    push_ramp(1.0, 0.0, 1); /* 81 periods old in the end */
-    push_ramp(0.5, 0.0, 81);
-    TEST_ASSERT_DOUBLE_WITHIN(half_quantum() + 80.0 * 8 * EPSILON, 0.5,
-                              (double)belt_level_history_at(&history, history.window));
-}
-
-static void test_change_of_congestion_is_what_enters_less_what_leaves(void) {
-    uint64_t random = 77u;
-    begin(12.6 * 0.0025, 0.0025);
-    for (int i = 0; i < 200; ++i) {
-        const double before = congestion();
-        const double newest = level_at(0.0);
-        const double left_first = level_at(12.6);
-        const double corner = level_at(12.0);
-        belt_level_history_push(&history, random_share(&random));
-        /* On its way from one place between two levels to the next, the window's end passes the
-         * level between, a corner of the polygon. */
-        const double left_last = level_at(12.6);
-        const double left = 0.5 * (0.6 * (left_first + corner) + 0.4 * (corner + left_last));
-        const double entered = 0.5 * (newest + level_at(0.0));
-        TEST_ASSERT_DOUBLE_WITHIN(4 * tolerance(0.03), 0.0025 * (entered - left),
-                                  congestion() - before);
-    }
-}
-
-/* --- begin --- */
-
-static void test_first_level_is_the_whole_past(void) {
-    belt_level_history_begin(&history, BELT_REAL(0.375));
-    for (int age = 0; age <= 80; ++age) {
-        TEST_ASSERT_DOUBLE_WITHIN(half_quantum() + EPSILON, 0.375, level_at(age));
-    }
-    TEST_ASSERT_DOUBLE_WITHIN(tolerance(0.075), 0.075, congestion());
-}
-
-static void test_first_level_is_what_pushing_it_long_enough_leads_to(void) {
-    for (double window = 0.0025; window < 0.3; window += 0.0137) {
-        begin(window, 0.0025);
-        belt_level_history_begin(&history, BELT_REAL(0.3));
-        const double filled = congestion();
-        belt_level_history_init(&history, &config);
-        push_ramp(0.3, 0.0, 300);
-        /* one is a product, the other a sum of whole quanta: a rounding or two apart */
-        TEST_ASSERT_DOUBLE_WITHIN(4 * EPSILON * 0.3 * window, filled, congestion());
-    }
-}
-
-static void test_first_level_is_forgotten_once_it_has_left_the_window(void) {
-    static belt_level_history_t other;
-    uint64_t random = 31u;
-    belt_level_history_init(&other, &config);
-    belt_level_history_begin(&history, BELT_REAL(1));
-    belt_level_history_begin(&other, BELT_REAL(0));
-    for (int i = 0; i < 1000; ++i) {
-        const belt_real_t level = random_share(&random);
-        belt_level_history_push(&history, level);
-        belt_level_history_push(&other, level);
-    }
-    for (int age = 0; age <= 80; ++age) {
-        /* Quanta are whole numbers: less the first level and back again they are the same. */
-        TEST_ASSERT_TRUE(level_at(age) == (double)belt_level_history_at(&other, BELT_REAL(age)));
-    }
-    TEST_ASSERT_DOUBLE_WITHIN(tolerance(0.2), (double)belt_level_history_congestion(&other),
-                              congestion());
-}
-
-static void test_change_over_the_whole_range_does_not_overflow_the_sum(void) {
-    belt_level_history_begin(&history, config.level_capacity);
-    push_ramp(0.0, 0.0, 500);
-    TEST_ASSERT_DOUBLE_WITHIN(tolerance(0.2), 0.0, congestion());
-    push_ramp(1.0, 0.0, 500);
-    TEST_ASSERT_DOUBLE_WITHIN(tolerance(0.2), 0.2, congestion());
-}
-
 int main(void) {
     UNITY_BEGIN();
     RUN_TEST(test_window_of_whole_periods_counts_them);
     RUN_TEST(test_window_that_rounding_left_short_of_whole_periods_counts_them_too);
     RUN_TEST(test_one_quantum_is_a_small_share_of_the_capacity);
     RUN_TEST(test_levels_are_rounded_to_the_nearest_quantum);
+    RUN_TEST(test_rate_is_one_over_the_period);
+    RUN_TEST(test_init_touches_no_level_behind_those_in_use);
     RUN_TEST(test_empty_history_has_no_congestion);
     RUN_TEST(test_constant_level_gives_level_times_window);
     RUN_TEST(test_full_buffer_does_not_overflow_the_sum);
@@ -302,16 +148,5 @@ int main(void) {
     RUN_TEST(test_pulse_leaves_the_window_after_the_window);
     RUN_TEST(test_window_of_one_period_is_one_trapezoid);
     RUN_TEST(test_levels_before_the_window_do_not_count);
-    RUN_TEST(test_sum_after_a_million_pushes_is_that_of_a_fresh_history);
-    RUN_TEST(test_sum_is_that_of_the_levels_in_the_window);
-    RUN_TEST(test_look_back_finds_every_level_of_the_window);
-    RUN_TEST(test_look_back_is_linear_between_periods);
-    RUN_TEST(test_look_back_reaches_the_end_of_a_broken_window);
-    RUN_TEST(test_look_back_to_the_whole_window_reads_no_older_level);
-    RUN_TEST(test_change_of_congestion_is_what_enters_less_what_leaves);
-    RUN_TEST(test_first_level_is_the_whole_past);
-    RUN_TEST(test_first_level_is_what_pushing_it_long_enough_leads_to);
-    RUN_TEST(test_first_level_is_forgotten_once_it_has_left_the_window);
-    RUN_TEST(test_change_over_the_whole_range_does_not_overflow_the_sum);
     return UNITY_END();
 }

@@ -28,13 +28,13 @@ static void read_bytes(const char *text, size_t length, const scenario_settings_
 }
 
 static void read_text(const char *text) {
-    const scenario_settings_t nothing = {NULL, 0};
+    const scenario_settings_t nothing = {0};
     read_bytes(text, strlen(text), &nothing);
 }
 
 static void read_set(const char *text, const char *first, const char *second) {
     const char *const texts[] = {first, second};
-    const scenario_settings_t settings = {texts, second != NULL ? 2 : 1};
+    const scenario_settings_t settings = {.text = texts, .count = second != NULL ? 2 : 1};
     read_bytes(text, strlen(text), &settings);
 }
 
@@ -70,7 +70,7 @@ static void test_empty_file_is_the_case_of_the_paper(void) {
     TEST_ASSERT_EQUAL_INT(20, scenario.controller.node_count);
     assert_number(0.0025, scenario.controller.period);
     assert_number(10.0, scenario.run.duration);
-    TEST_ASSERT_EQUAL_INT(0, (int)scenario.run.setpoint_count);
+    TEST_ASSERT_EQUAL_INT(0, (int)scenario.run.setpoints.count);
     TEST_ASSERT_TRUE(isinf(scenario.controller.inlet_flux_max));
     TEST_ASSERT_TRUE(isinf(scenario.plant.inlet_flux_max));
 }
@@ -174,11 +174,11 @@ static void test_longest_line_is_read_and_one_more_byte_refused(void) {
     char text[199];
     memset(text, '#', sizeof text);
     text[197] = '\n';
-    read_bytes(text, 198, &(scenario_settings_t){NULL, 0});
+    read_bytes(text, 198, &(scenario_settings_t){0});
     assert_read();
     text[197] = '#';
     text[198] = '\n';
-    read_bytes(text, 199, &(scenario_settings_t){NULL, 0});
+    read_bytes(text, 199, &(scenario_settings_t){0});
     assert_refused("x.ini:1: line of 198 bytes; at most 197");
 }
 

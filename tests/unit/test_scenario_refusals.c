@@ -23,7 +23,7 @@ static void read_refused(const char *text, size_t length, const char *setting, c
     scenario_t scenario;
     FILE *const messages = tmpfile();
     TEST_ASSERT_NOT_NULL(messages);
-    const scenario_settings_t settings = {&setting, setting != NULL ? 1 : 0};
+    const scenario_settings_t settings = {.text = &setting, .count = setting != NULL ? 1 : 0};
     TEST_ASSERT_FALSE_MESSAGE(
         scenario_read_with(text, length, "x.ini", &settings, &scenario, messages),
         setting != NULL ? setting : text);
@@ -153,7 +153,7 @@ static void test_unknown_and_misplaced_names_are_refused(void) {
         {"[line]\nBelt_length = 2\n", "x.ini:2: [line] Belt_length = 2: unknown key"},
         {"[line]\nduration = 2\n", "unknown key"},
         {"[line]\nbelt_lengt = 2\n", "unknown key"},
-        {"[controller]\nestimator = off\n", "unknown key"},
+        {"[controller]\nestimater = off\n", "unknown key"},
         {"belt_length = 2\n", "x.ini:1: belt_length stands outside a section"},
     };
     refuse_texts(refusals, COUNT_OF(refusals));

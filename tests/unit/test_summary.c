@@ -119,8 +119,9 @@ static void test_peak_of_a_flux_that_is_never_positive_is_not_zero(void) {
 }
 
 static void assert_written(const char *expected) {
-    const loop_totals_t totals = {.spilled = 0.25, .balance_error = -1.5, .steps = 7};
-    char text[512];
+    const loop_totals_t totals = {
+        .spilled = 0.25, .balance_error = -1.5, .steps = 7, .disturbed = 0.125};
+    char text[1024];
     FILE *const file = tmpfile();
     TEST_ASSERT_NOT_NULL(file);
     TEST_ASSERT_TRUE(summary_write(&summary, &totals, file));
@@ -130,13 +131,18 @@ static void assert_written(const char *expected) {
     TEST_ASSERT_EQUAL_STRING(expected, text);
 }
 
+#define NO_MODE_BUT_OFF(rows)                                                                      \
+    "  \"rows_off\": " rows ",\n  \"rows_manual\": 0,\n  \"rows_automatic\": 0,\n"                 \
+    "  \"rows_hold\": 0,\n  \"rows_substitute\": 0\n}\n"
+
 static void test_summary_is_json_in_the_promised_order(void) {
     take(0.0, 0.0, 0.5, 1.0);
     take(1.0, 0.5, 0.5, 0.5);
     assert_written("{\n  \"settling_time\": 1,\n  \"overshoot\": 0,\n  \"iae\": 0.25,\n"
                    "  \"inlet_flux_peak\": 1,\n  \"inlet_flux_variation\": 0.5,\n"
                    "  \"final_error\": 0,\n  \"spilled\": 0.25,\n  \"balance_error\": -1.5,\n"
-                   "  \"steps\": 7\n}\n");
+                   "  \"steps\": 7,\n  \"level_peak\": 0.5,\n  \"disturbed\": 0.125,\n"
+                   "  \"error_bits\": 0,\n" NO_MODE_BUT_OFF("2"));
 }
 
 static void test_figures_without_value_are_null(void) {
@@ -144,7 +150,36 @@ static void test_figures_without_value_are_null(void) {
     assert_written("{\n  \"settling_time\": null,\n  \"overshoot\": null,\n  \"iae\": 0,\n"
                    "  \"inlet_flux_peak\": 0,\n  \"inlet_flux_variation\": 0,\n"
                    "  \"final_error\": 0.5,\n  \"spilled\": 0.25,\n  \"balance_error\": -1.5,\n"
-                   "  \"steps\": 7\n}\n");
+                   "  \"steps\": 7,\n  \"level_peak\": 0.5,\n  \"disturbed\": 0.125,\n"
+                   "  \"error_bits\": 0,\n" NO_MODE_BUT_OFF("1"));
+}
+
+static void take_answer(double mode, double error_bits) {
+    const loop_row_t row = {.mode = mode, .error_bits = error_bits};
+    summary_take(&summary, &row);
+}
+
+static void test_error_bits_of_all_steps_add_up(void) {
+    take_answer(2.0, 1.0);
+    take_answer(2.0, 0.0);
+    take_answer(2.0, 4096.0);
+    TEST_ASSERT_EQUAL_HEX32(0x1001, summary.error_bits);
+}
+
+static void test_rows_are_counted_in_their_mode(void) {
+    static const double modes[] = {0, 1, 1, 2, 2, 2, 3, 4};
+    static const size_t expected[SUMMARY_MODES] = {1, 2, 3, 1, 1};
+    for (size_t index = 0; index < sizeof modes / sizeof modes[0]; index++) {
+        take_answer(modes[index], 0.0);
+    }
+    TEST_ASSERT_EQUAL_MEMORY(expected, summary.mode_rows, sizeof expected);
+}
+
+static void test_level_has_its_peak_over_the_whole_run(void) {
+    take(0.0, 0.2, 1.0, 0.0);
+    take(1.0, 0.7, 1.0, 0.0);
+    take(2.0, 0.4, 2.0, 0.0);
+    TEST_ASSERT_DOUBLE_WITHIN(ROUNDING, 0.7, summary.level_peak);
 }
 
 int main(void) {
@@ -163,5 +198,8 @@ int main(void) {
     RUN_TEST(test_peak_of_a_flux_that_is_never_positive_is_not_zero);
     RUN_TEST(test_summary_is_json_in_the_promised_order);
     RUN_TEST(test_figures_without_value_are_null);
+    RUN_TEST(test_error_bits_of_all_steps_add_up);
+    RUN_TEST(test_rows_are_counted_in_their_mode);
+    RUN_TEST(test_level_has_its_peak_over_the_whole_run);
     return UNITY_END();
 }
