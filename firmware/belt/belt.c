@@ -237,12 +237,13 @@ static void note_state(belt_controller_t *controller) {
     if (belt_estimator_is_at_limit(&controller->estimator, &controller->estimator_gains)) {
         trusted->error_bits |= BELT_ERROR_DISTURBANCE_LIMIT;
     }
-    if (controller->short_history > 0u) {
+    const uint32_t length = controller->history.length;
+    const uint32_t missing =
+        (controller->short_history < length) ? controller->short_history : length;
+    if (missing > 0u) {
         trusted->error_bits |= BELT_ERROR_HISTORY_SHORT;
-        const uint32_t periods = trusted->periods;
-        controller->short_history -=
-            (periods < controller->short_history) ? periods : controller->short_history;
     }
+    controller->short_history = (trusted->periods < missing) ? missing - trusted->periods : 0u;
 }
 
 /** A step before any level: the law cannot begin, the operator can. */

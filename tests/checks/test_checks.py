@@ -17,6 +17,7 @@ CLEAN = {
     "firmware/belt/observer.h": LICENCE + '#include "types.h"\nbelt_real_t belt_density(void);\n',
     "firmware/belt/observer.c": LICENCE
     + '#include "observer.h"\n\nbelt_real_t belt_density(void) {\n    return 1;\n}\n',
+    "firmware/belt/belt.h": LICENCE + '#include "observer.h"\n',
     "host_sim/model.h": LICENCE + '#include "belt/belt.h"\n',
     "host_sim/plant.h": LICENCE + "double plant_level(void);\n",
     "host_sim/loop.c": LICENCE + '#include "belt/belt.h"\n#include "plant.h"\n#include <stdio.h>\n',
@@ -35,7 +36,7 @@ def plant(root: Path, files: dict[str, str]) -> None:
 @pytest.fixture
 def root(tmp_path):
     plant(tmp_path, CLEAN)
-    for name in (".clang-format", "pyproject.toml"):
+    for name in (".clang-format", ".clang-tidy", "pyproject.toml"):
         shutil.copy(PROJECT / name, tmp_path)
     return tmp_path
 
@@ -46,16 +47,28 @@ def check(name: str, root: Path, *more: object) -> subprocess.CompletedProcess[s
     return subprocess.run(list(map(str, command)), capture_output=True, text=True)
 
 
-@pytest.mark.parametrize("name", ["include_rules", "forbidden_words", "spdx", "format", "cppcheck"])
+CHECKS = [
+    *("include_rules", "forbidden_words", "spdx", "format", "cppcheck"),
+    *("misra", "clang_tidy", "gcc_analyzer", "complexity"),
+]
+
+
+@pytest.mark.parametrize("name", CHECKS)
 def test_clean_tree_passes(root, name):
     result = check(name, root)
     assert result.returncode == 0, result.stdout + result.stderr
 
 
-@pytest.mark.parametrize("name", ["include_rules", "forbidden_words", "spdx", "format", "cppcheck"])
+@pytest.mark.parametrize("name", CHECKS)
 def test_tree_without_files_fails(tmp_path, name):
     assert check(name, tmp_path).returncode != 0
 
+
+LEAK = """#include <stdlib.h>
+int f(void);
+int f(void) { char *p = malloc(8); if (p == NULL) { return 1; } p[0] = 1; return p[0]; }
+"""
+MANY_WAYS = "int f(int a);\nint f(int a) {\n" + 10 * "if (a > 3) { a -= 2; }\n" + "return a; }\n"
 
 PLANTED = [
     # a stage knows one to its right, and one knows the wiring
@@ -89,6 +102,22 @@ PLANTED = [
     ("forbidden_words", "firmware/belt/observer.c", "void f(void) {\n  # ifdef X\n#endif\n}\n"),
     ("cppcheck", "firmware/belt/gains.c", "int f(void);\nint f(void) { int a[2]; return a[2]; }\n"),
     ("cppcheck", "host_sim/plant.c", "int f(int x);\nint f(int x) { return x / 0; }\n"),
+    ("misra", "firmware/belt/gains.c", "int f(int a);\nint f(int a) { goto b;\nb: return a; }\n"),
+    ("misra", "firmware/belt/gains.c", "int f(void);\nint f(void) { return 010; }\n"),
+    (
+        "clang_tidy",
+        "firmware/belt/gains.c",
+        "int f(int a);\nint f(int a) { if (a = 1) {} return a; }\n",
+    ),
+    ("clang_tidy", "host_sim/plant.c", "int f(int a);\nint f(int a) { return a ? 1 : 1; }\n"),
+    ("gcc_analyzer", "host_sim/plant.c", LEAK),
+    (
+        "gcc_analyzer",
+        "firmware/belt/gains.c",
+        "int f(void);\nint f(void) { int *p = 0; return *p; }\n",
+    ),
+    ("complexity", "firmware/belt/gains.c", MANY_WAYS),
+    ("complexity", "host_sim/plant.c", MANY_WAYS),
     ("format", "host_sim/plant.c", "int  f(void);\n"),
     ("format", "reference/march.py", "x = {  'a':1 }\n"),
     ("format", "reference/march.py", "import os\n"),
@@ -104,6 +133,27 @@ def test_planted_violation_is_found(root, name, file, text):
     result = check(name, root)
     assert result.returncode == 1, result.stdout + result.stderr
     assert Path(file).name in result.stdout + result.stderr
+
+
+@pytest.mark.parametrize(
+    ("entry", "status", "message"),
+    [
+        ("f firmware/belt/gains.c a table\n", 0, ""),
+        ("f firmware/*\n    a table, on a line of its own\n", 0, ""),
+        ("f firmware/belt/gains.c\n", 1, "no reason given"),
+        ("g firmware/belt/gains.c a table\n", 1, "nothing deviates any more"),
+        ("f host_sim/* a table\n", 1, "nothing deviates any more"),
+    ],
+)
+def test_deviation_needs_a_reason_and_a_finding(root, entry, status, message):
+    files = {
+        "firmware/belt/gains.c": LICENCE + MANY_WAYS,
+        "tools/checks/complexity_deviations.txt": "# " + LICENCE + entry,
+    }
+    plant(root, files)
+    result = check("complexity", root)
+    assert result.returncode == status, result.stdout + result.stderr
+    assert message in result.stdout
 
 
 @pytest.mark.parametrize(
