@@ -183,7 +183,8 @@ static void follow_line(belt_controller_t *controller, const belt_measurement_t 
     const belt_trusted_t *trusted = &controller->trusted;
     const uint32_t longest = controller->limits.stretch_periods;
     uint32_t passed = 0;
-    for (uint32_t i = 0; (i < BELT_CATCH_UP_PERIODS) && (passed < trusted->periods); ++i) {
+    while (passed <
+           trusted->periods) { /* at most BELT_CATCH_UP_PERIODS turns: each takes one or more */
         const uint32_t rest = trusted->periods - passed;
         const uint32_t periods = (rest < longest) ? rest : longest;
         const belt_real_t outlet_flux = move_belt(controller, periods);

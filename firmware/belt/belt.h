@@ -109,7 +109,8 @@ belt_status_t belt_set_setpoint(belt_controller_t *controller, belt_real_t level
 belt_status_t belt_set_mode(belt_controller_t *controller, belt_mode_t mode);
 
 /**
- * Sets the flux of manual [parts/s], within 0 ... inlet_flux_max. Returns BELT_OK, BELT_MISUSE,
+ * Sets the flux of manual [parts/s], within 0 ... inlet_flux_max (and belt_config_flux_bound(), for a
+ * valve without limit). Returns BELT_OK, BELT_MISUSE,
  * BELT_CORRUPT, BELT_NOT_MANUAL unless manual is asked for, or BELT_MANUAL_FLUX; only BELT_OK
  * changes anything.
  */

@@ -89,8 +89,8 @@ typedef struct {
                                      default: belt_config_estimator_time()'s rule. */
     belt_real_t
         flux_rate_max; /**< greatest change of the command [parts/s^2]; default: no limit. */
-    belt_real_t substitute_flux; /**< fed while no level is to be had, 0 ... inlet_flux_max
-                                      [parts/s]; default: nothing. */
+    belt_real_t substitute_flux; /**< fed while no level is to be had, 0 ... inlet_flux_max and
+                                      belt_config_flux_bound() [parts/s]; default: nothing. */
     belt_real_t level_step_max;  /**< greatest change between two samples that is believed at once
                                       [parts]; default: a quarter of level_capacity. */
     belt_real_t transfer_time; /**< time constant with which the command goes over from one mode to

@@ -22,8 +22,16 @@ static void begin(void) {
 
 /* --- what is left 0 has its default --- */
 
-static void test_actuator_without_limits_has_none(void) {
-    TEST_ASSERT_TRUE(limits.inlet_flux_max == BELT_NO_FLUX_LIMIT);
+static void test_actuator_without_limit_has_that_of_a_sound_line(void) {
+    /* 10*1.2 parts/s, 1.2 times slower at most, exp(-0.6) of it left; some ten roundings. */
+    const double bound = 14.4 * exp(0.6);
+    TEST_ASSERT_DOUBLE_WITHIN(16 * EPSILON * bound, bound, (double)limits.inlet_flux_max);
+    config.inlet_flux_max = BELT_REAL(30);
+    begin();
+    TEST_ASSERT_DOUBLE_WITHIN(16 * EPSILON * bound, bound, (double)limits.inlet_flux_max);
+}
+
+static void test_rate_left_0_is_no_limit(void) {
     TEST_ASSERT_TRUE(limits.flux_step_max == BELT_NO_FLUX_LIMIT);
 }
 
@@ -170,7 +178,8 @@ static void test_stretch_never_moves_a_belt_by_more_than_a_spacing(void) {
 
 int main(void) {
     UNITY_BEGIN();
-    RUN_TEST(test_actuator_without_limits_has_none);
+    RUN_TEST(test_actuator_without_limit_has_that_of_a_sound_line);
+    RUN_TEST(test_rate_left_0_is_no_limit);
     RUN_TEST(test_nothing_is_fed_as_a_substitute);
     RUN_TEST(test_level_may_step_by_a_quarter_of_the_capacity);
     RUN_TEST(test_counts_have_their_defaults);

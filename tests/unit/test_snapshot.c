@@ -12,6 +12,11 @@ void tearDown(void) {
 
 static void test_crc_has_the_published_check_value(void) {
     TEST_ASSERT_EQUAL_HEX32(0xCBF43926u, belt_snapshot_crc(0, "123456789", 9u));
+    unsigned char bytes[256]; /* every entry of the table; zlib.crc32(bytes(range(256))) */
+    for (size_t i = 0; i < sizeof bytes; ++i) {
+        bytes[i] = (unsigned char)i;
+    }
+    TEST_ASSERT_EQUAL_HEX32(0x29058C73u, belt_snapshot_crc(0, bytes, sizeof bytes));
     TEST_ASSERT_EQUAL_HEX32(0u, belt_snapshot_crc(0, "", 0u));
 }
 
