@@ -38,13 +38,13 @@ class LevelHistory:
 
     def integral_until(self, time: float) -> float:
         """Running integral [parts s] at a recorded time; before the record, the first level."""
-        before = bisect_right(self.times, time) - 1
-        before = min(max(before, 0), len(self.times) - 2)
-        elapsed = time - self.times[before]
-        width = self.times[before + 1] - self.times[before]
-        rise = self.levels[before + 1] - self.levels[before]
+        times, levels = self.times, self.levels
+        before = min(max(bisect_right(times, time) - 1, 0), len(times) - 2)
+        elapsed = time - times[before]
+        width = times[before + 1] - times[before]
+        rise = levels[before + 1] - levels[before]
         slope = rise / width if width > 0.0 and elapsed > 0.0 else 0.0
-        return self.integrals[before] + elapsed * (self.levels[before] + 0.5 * slope * elapsed)
+        return self.integrals[before] + elapsed * (levels[before] + 0.5 * slope * elapsed)
 
     def congestion(self) -> float:
         """R(t) [parts s] at the last recorded time."""
