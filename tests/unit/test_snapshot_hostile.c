@@ -198,7 +198,8 @@ static void test_valid_slot_of_hostile_words_never_gives_a_bad_command(void) {
         slots[0] = well;
         const size_t count = (size_t)1 << (random_bits(&random) % 10u);
         for (size_t k = 0; k < count; ++k) {
-            spoil(3u + random_bits(&random) % (sizeof well / sizeof(uint32_t) - 4u), &random);
+            spoil(3u + (size_t)random_bits(&random) % (sizeof well / sizeof(uint32_t) - 4u),
+                  &random);
         }
         seal(&slots[0]);
         assert_never_a_bad_command((uint32_t)(random_bits(&random) % 120u));
