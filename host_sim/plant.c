@@ -80,6 +80,9 @@ double plant_outlet_flux(const plant_t *plant) {
 
 void plant_profile(const plant_t *plant, double *density, size_t count) {
     plant->scheme->profile(plant->belt, plant, density, count);
+    for (size_t i = 0; i < count; ++i) {
+        density[i] = fmax(density[i], 0.0); /* an emptied belt, but for rounding */
+    }
 }
 
 double plant_balance_error(const plant_t *plant) {

@@ -105,6 +105,26 @@ static belt_status_t begin_anew(belt_controller_t *controller) {
     return BELT_SNAPSHOT_OLD;
 }
 
+/** Takes on what a valid slot says. False when no controller can have written it: then nothing is left
+ * to go on with. */
+static bool adopt(belt_controller_t *controller, const belt_config_t *config,
+                  const belt_snapshot_t *slot) {
+    belt_config_t restored = *config;
+    restored.level_setpoint = slot->level_setpoint;
+    if (belt_init(controller, &restored) != BELT_OK) {
+        return false;
+    }
+    unsigned char *state = (unsigned char *)controller + STATE_BEGIN;
+    /* What is derived of the history is not taken from a slot. */
+    const bool is_ours = memcmp(slot->state, state, offsetof(belt_level_history_t, base)) == 0;
+    memcpy(state, slot->state, BELT_STATE_SIZE);
+    if (!is_ours || !belt_is_running(controller)) {
+        controller->state = 0;
+        return false;
+    }
+    return true;
+}
+
 belt_status_t belt_snapshot_restore(belt_controller_t *controller, const belt_config_t *config,
                                     const belt_snapshot_t slots[2], uint32_t down_periods) {
     const bool is_usable = (controller != NULL) && (config != NULL) && (slots != NULL);
@@ -117,20 +137,7 @@ belt_status_t belt_snapshot_restore(belt_controller_t *controller, const belt_co
         return status;
     }
     const uint32_t index = newest(slots, crc_of_config(config));
-    if (index > 1u) {
-        return BELT_NO_SNAPSHOT;
-    }
-    belt_config_t restored = *config;
-    restored.level_setpoint = slots[index].level_setpoint;
-    if (belt_init(controller, &restored) != BELT_OK) {
-        return BELT_NO_SNAPSHOT;
-    }
-    /* What is derived of the history is not taken from a slot. */
-    const size_t derived = offsetof(belt_level_history_t, base);
-    const bool is_ours = memcmp(slots[index].state, &controller->history, derived) == 0;
-    memcpy((unsigned char *)controller + STATE_BEGIN, slots[index].state, BELT_STATE_SIZE);
-    if (!is_ours || !belt_is_running(controller)) {
-        controller->state = 0;
+    if ((index > 1u) || !adopt(controller, config, &slots[index])) {
         return BELT_NO_SNAPSHOT;
     }
     if (down_periods >= BELT_CATCH_UP_PERIODS) { /* the next step has its own period besides */
