@@ -19,7 +19,7 @@ void power_begin(power_t *self, const scenario_t *scenario) {
 
 void power_keep(power_t *self, const belt_controller_t *controller, size_t index) {
     if ((self->interval > 0) && (index >= self->due) && (index < self->end)) {
-        belt_snapshot_take(controller, self->slots);
+        (void)belt_snapshot_take(controller, self->slots);
         self->last = index;
         self->due = index + self->interval;
     }

@@ -14,7 +14,9 @@ BELT_STATIC_ASSERT(configuration_stands_before_all_else,
 
 /** Error bits that are not an input's. */
 #define LINE_BITS (BELT_ERROR_FLUX_MISMATCH | BELT_ERROR_DISTURBANCE_LIMIT)
-#define PERIOD_BITS (BELT_ERROR_PERIODS_LATE | BELT_ERROR_PERIOD_REPEATED)
+#define PERIOD_BITS                                                                                \
+    (BELT_ERROR_PERIODS_LATE | BELT_ERROR_PERIODS_LOST | BELT_ERROR_PERIOD_REPEATED |              \
+     BELT_ERROR_HISTORY_SHORT)
 
 /** Sum of all that is derived: counts, limits and gains, the history's constants. Of the line its
  * tables of losses are left out: a wrong loss is a wrong model and nothing worse. */
@@ -128,8 +130,9 @@ static belt_real_t move_belt(belt_controller_t *controller, uint32_t periods) {
     /* The speed in the middle, from the congestion there. */
     const belt_real_t count = (belt_real_t)periods;
     const belt_real_t duration = count * history->period;
+    const belt_real_t age = history->window - BELT_REAL(0.25) * count;
     const belt_real_t tail =
-        belt_level_history_at(history, history->window - BELT_REAL(0.25) * count);
+        belt_level_history_at(history, belt_within(BELT_REAL(0), age, history->window));
     const belt_real_t slower =
         line->slowness_slope * BELT_HALF * duration * (present->level - tail);
     const belt_real_t slowness = belt_line_slowness(line, present->congestion) + slower;
@@ -361,6 +364,9 @@ belt_status_t belt_set_manual_flux(belt_controller_t *controller, belt_real_t in
         return BELT_MANUAL_FLUX;
     }
     controller->supervisor.manual_flux = inlet_flux;
+    if (controller->command.mode == BELT_MODE_MANUAL) { /* what was left of the switch is settled */
+        controller->supervisor.bump = BELT_REAL(0);
+    }
     close_command(controller);
     return BELT_OK;
 }

@@ -80,13 +80,19 @@ belt_status_t belt_init(belt_controller_t *controller, const belt_config_t *conf
  *   BELT_OK              every input present was trusted, and the line does as it is told;
  *   BELT_INPUT_REJECTED  one was not: command->error_bits say which; what stands in for it says
  *                        measurement.h, who is in command says command->mode;
- *   BELT_PERIODS_MISSED  the step came late or twice, else all is well;
+ *   BELT_PERIODS_MISSED  the step came late or twice, or the history is not whole after a stop; else
+ *                        all is well;
  *   BELT_LINE_DEVIATES   the valve does not feed what it is told, or the disturbance is at its limit;
  *   BELT_NO_LEVEL        no level has been trusted since init: automatic feeds nothing, mode is off;
  *                        manual works;
  *   BELT_CORRUPT         the controller's memory has changed under it: nothing is fed, now and
  *                        until it is initialised or restored;
  *   BELT_MISUSE          a null pointer or no successful init: nothing is fed. BELT_ASSERT first.
+ * The last two answer 0 at once, without the rate limit.
+ *
+ * Every period that passes moves the belt of the model. Where the belt itself stands still (brakes, an
+ * emergency stop), do not step, and go on with elapsed_ticks 1: for the line no time has passed.
+ * What is fed by hand before the first level is not on the model's belt: it is seen a transit later.
  */
 belt_status_t belt_step(belt_controller_t *controller, const belt_measurement_t *measurement,
                         belt_command_t *command);

@@ -24,7 +24,7 @@ typedef struct {
     belt_real_t inlet_flux; /**< U: flux to feed until the next step, always finite and within
                                  0 ... inlet_flux_max [parts/s]. */
     belt_mode_t mode;       /**< who is in command. */
-    uint32_t error_bits; /**< BELT_ERROR_... of measurement.h: inputs not trusted in this step. */
+    uint32_t error_bits;    /**< BELT_ERROR_... of measurement.h: what was wrong in this step. */
 } belt_command_t;
 
 /** Flux within [0, limit]; anything that is no number is 0 [parts/s]. */

@@ -95,9 +95,10 @@ typedef struct {
                                       [parts]; default: a quarter of level_capacity. */
     belt_real_t transfer_time; /**< time constant with which the command goes over from one mode to
                                     another [s]; default: a quarter of the empty line's dead time. */
-    uint16_t sample_periods;   /**< a new sample of the level is due every so many periods;
+    uint16_t
+        sample_periods;    /**< a new sample of the level is due every so many periods, rounded up;
                                     default: 1. */
-    uint16_t hold_periods;     /**< so long the law goes on without a good level before the
+    uint16_t hold_periods; /**< so long the law goes on without a good level before the
                                     substitute takes over [periods]; default: half the empty line's
                                     dead time. */
     uint16_t

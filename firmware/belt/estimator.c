@@ -28,8 +28,7 @@ void belt_estimator_gains_init(belt_estimator_gains_t *gains, const belt_config_
     gains->filter = filter;
     gains->level = (r * (r + BELT_REAL(2) * s) - BELT_REAL(2) * product) / filter;
     gains->disturbance = product / (filter * interval);
-    gains->disturbance_max =
-        config->service_rate_max + config->connectivity * config->nominal_flux_max;
+    gains->disturbance_max = config->connectivity * config->nominal_flux_max;
 }
 
 void belt_estimator_begin(belt_estimator_t *estimator, belt_real_t level) {

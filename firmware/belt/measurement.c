@@ -61,7 +61,12 @@ static bool is_believed(belt_gate_t *gate, belt_real_t level, const belt_limits_
     gate->agreeing_samples =
         agrees ? one_more(gate->agreeing_samples, limits->recovery_samples) : 1u;
     gate->level_elsewhere = level;
-    return gate->agreeing_samples >= limits->recovery_samples;
+    if (gate->agreeing_samples < limits->recovery_samples) {
+        return false;
+    }
+    gate->agreeing_samples = 0;
+    gate->good_samples = limits->recovery_samples; /* they were good ones after all */
+    return true;
 }
 
 /** The level that is trusted in this period, if there is one. */
@@ -69,7 +74,10 @@ static bool gate_level(belt_gate_t *gate, const belt_measurement_t *measurement,
                        const belt_line_t *line, const belt_limits_t *limits, uint32_t periods,
                        uint32_t *error_bits) {
     if ((measurement->present & BELT_HAS_LEVEL) == 0u) {
-        *error_bits |= BELT_ERROR_LEVEL_MISSING;
+        gate->sample_age = counted(gate->sample_age, periods, limits->sample_periods);
+        if (gate->sample_age >= limits->sample_periods) { /* between two samples there is none */
+            *error_bits |= BELT_ERROR_LEVEL_MISSING;
+        }
         return false;
     }
     if (!is_plausible(measurement->level, line)) {
@@ -88,9 +96,36 @@ static bool gate_level(belt_gate_t *gate, const belt_measurement_t *measurement,
         *error_bits |= BELT_ERROR_LEVEL_STEP;
         return false;
     }
+    if (gate->has_level == 0u) { /* nothing before it speaks against the first one */
+        gate->good_samples = limits->recovery_samples;
+    }
     gate->level = level;
     gate->has_level = 1u;
     return true;
+}
+
+static void judge_bad(belt_gate_t *gate, uint32_t periods, const belt_limits_t *limits) {
+    gate->good_samples = 0;
+    gate->bad_periods = counted(gate->bad_periods, periods, limits->hold_periods + 1u);
+    if (gate->bad_periods > limits->hold_periods) {
+        gate->found_samples = 0;
+        gate->health = BELT_LEVEL_LOST;
+    } else if (gate->health != BELT_LEVEL_LOST) {
+        gate->health = BELT_LEVEL_DOUBTED;
+    }
+}
+
+/** Good samples in a row end every doubt; with gaps no longer than hold bears, they end the loss. */
+static void judge_good(belt_gate_t *gate, const belt_limits_t *limits) {
+    gate->bad_periods = 0;
+    gate->good_samples = one_more(gate->good_samples, limits->recovery_samples);
+    gate->found_samples = one_more(gate->found_samples, limits->recovery_samples);
+    if (gate->good_samples >= limits->recovery_samples) {
+        gate->health = BELT_LEVEL_TRUSTED;
+    } else if ((gate->health != BELT_LEVEL_TRUSTED) &&
+               (gate->found_samples >= limits->recovery_samples)) {
+        gate->health = BELT_LEVEL_DOUBTED;
+    }
 }
 
 /** How the level stands after a period with a good sample, without one, or between two samples. */
@@ -103,17 +138,9 @@ static void judge_level(belt_gate_t *gate, bool is_good, bool is_bad, uint32_t p
             BELT_REAL(1));
     }
     if (is_bad) {
-        gate->good_samples = 0;
-        gate->bad_periods = counted(gate->bad_periods, periods, limits->hold_periods + 1u);
-        const bool is_lost =
-            (gate->health == BELT_LEVEL_LOST) || (gate->bad_periods > limits->hold_periods);
-        gate->health = is_lost ? BELT_LEVEL_LOST : BELT_LEVEL_DOUBTED;
+        judge_bad(gate, periods, limits);
     } else if (is_good) {
-        gate->bad_periods = 0;
-        gate->good_samples = one_more(gate->good_samples, limits->recovery_samples);
-        if (gate->good_samples >= limits->recovery_samples) {
-            gate->health = BELT_LEVEL_TRUSTED;
-        }
+        judge_good(gate, limits);
     }
 }
 
@@ -187,9 +214,15 @@ belt_trusted_t belt_measurement_gate(belt_gate_t *gate, const belt_measurement_t
     const uint32_t level_is_bad = BELT_ERROR_LEVEL_MISSING | BELT_ERROR_LEVEL_INVALID |
                                   BELT_ERROR_LEVEL_STALE | BELT_ERROR_LEVEL_STEP |
                                   BELT_ERROR_PERIODS_LOST;
-    belt_trusted_t trusted;
+    belt_trusted_t trusted = {0};
     uint32_t error_bits = 0;
     trusted.periods = gate_periods(gate, measurement, &error_bits);
+    if ((trusted.periods == 0u) && (gate->has_level != 0u)) { /* nothing moves */
+        trusted.level = gate->level;
+        trusted.applied_flux = command;
+        trusted.error_bits = error_bits;
+        return trusted;
+    }
     trusted.level_is_new =
         gate_level(gate, measurement, line, limits, trusted.periods, &error_bits);
     trusted.level = gate->level;

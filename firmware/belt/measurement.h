@@ -23,7 +23,7 @@
 
 /* What was wrong in this step, and what stands in for it; bits add up. A value is senseless beyond the
  * bounds of belt_line_t.
- *   LEVEL_MISSING         there is none; the estimate, without estimator the last good one
+ *   LEVEL_MISSING         there is none though one is due; the estimate, without estimator the last good one
  *   LEVEL_INVALID         NaN, or outside the buffer by more than BELT_LEVEL_MARGIN; the same
  *   LEVEL_RANGE           outside [0, level_capacity] by less; the nearer end
  *   LEVEL_STALE           no new sample although one was due; the same as missing
@@ -35,8 +35,9 @@
  *   DENSITY_RANGE         a density below 0; the observer's profile
  *   PERIODS_LATE          2 ... BELT_CATCH_UP_PERIODS periods have passed: all are made up for
  *   PERIODS_LOST          more: so many are made up for, and the level is doubted
- *   PERIOD_REPEATED       none has passed since the last step: nothing moves
- *   FLUX_MISMATCH         for some periods the flux applied was not the one commanded
+ *   PERIOD_REPEATED       none has passed since the last step: nothing is read, nothing moves
+ *   FLUX_MISMATCH         for BELT_MISMATCH_PERIODS the flux applied was not the one commanded, by
+ *                         more than 5 % of nominal_flux_max
  *   DISTURBANCE_LIMIT     the estimated disturbance is at its limit: the line is not the model
  *   HISTORY_SHORT         after a long stop: the levels of the last speed_window are not all known */
 #define BELT_ERROR_LEVEL_MISSING 0x1u
@@ -73,7 +74,8 @@ typedef struct {
 typedef enum {
     BELT_LEVEL_TRUSTED, /**< good samples come when they are due. */
     BELT_LEVEL_DOUBTED, /**< the last was not good, or too few good ones came since. */
-    BELT_LEVEL_LOST     /**< none was good for hold_periods. */
+    BELT_LEVEL_LOST     /**< none was good for hold_periods, and too few good ones came since:
+                         recovery_samples in a row are trusted, with gaps they are doubted. */
 } belt_level_health_t;
 
 /** What passed. */
@@ -82,7 +84,7 @@ typedef struct {
     belt_real_t outlet_flux; /**< [parts/s], when has_outlet_flux. */
     belt_real_t applied_flux; /**< [parts/s]; the last command if none came. */
     uint32_t periods;         /**< to be made up for, 0 ... BELT_CATCH_UP_PERIODS. */
-    bool level_is_new;        /**< a level of this period was trusted. */
+    bool level_is_new; /**< a new level passed; after lost periods it is used, and doubted. */
     bool has_outlet_flux;
     bool has_density;
     uint32_t error_bits; /**< BELT_ERROR_... */
@@ -98,7 +100,8 @@ typedef struct {
     uint32_t owed_periods;       /**< passed without a step before a restart, to be made up for. */
     uint32_t agreeing_samples;   /**< samples in a row that agree with level_elsewhere. */
     uint32_t good_samples;       /**< good ones in a row. */
-    uint32_t bad_periods;        /**< periods without a good one in a row. */
+    uint32_t found_samples;    /**< good ones since the level was lost, gaps within hold_periods. */
+    uint32_t bad_periods;      /**< periods without a good one in a row. */
     uint32_t mismatch_periods; /**< periods in a row in which command and applied flux differed. */
     belt_level_health_t health;
     uint32_t has_level; /**< 1 once a level has been trusted. */

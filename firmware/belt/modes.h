@@ -39,22 +39,33 @@ typedef enum {
 
 /* Every transition: row(from, event, to, transfer). Code, tests and documentation read this table and
  * nothing else. In any mode, the rate limit of the command holds on top. */
-#define BELT_TRANSITIONS(row)                                                                      \
-    row(OFF, OFF, OFF, NONE) row(OFF, MANUAL, MANUAL, AT_ONCE)                                     \
-        row(OFF, TRUSTED, AUTOMATIC, AT_ONCE) row(OFF, DOUBTED, HOLD, AT_ONCE) row(                \
-            OFF, LOST, SUBSTITUTE, AT_ONCE) row(MANUAL, OFF, OFF, AT_ONCE)                         \
-            row(MANUAL, MANUAL, MANUAL, NONE) row(MANUAL, TRUSTED, AUTOMATIC, BUMPLESS) row(       \
-                MANUAL, DOUBTED, HOLD, BUMPLESS) row(MANUAL, LOST, SUBSTITUTE, BUMPLESS)           \
-                row(AUTOMATIC, OFF, OFF, AT_ONCE) row(AUTOMATIC, MANUAL, MANUAL, BUMPLESS) row(    \
-                    AUTOMATIC, TRUSTED, AUTOMATIC, NONE) row(AUTOMATIC, DOUBTED, HOLD, BUMPLESS)   \
-                    row(AUTOMATIC, LOST, SUBSTITUTE, BUMPLESS) row(HOLD, OFF, OFF, AT_ONCE)        \
-                        row(HOLD, MANUAL, MANUAL, BUMPLESS)                                        \
-                            row(HOLD, TRUSTED, AUTOMATIC, BUMPLESS) row(HOLD, DOUBTED, HOLD, NONE) \
-                                row(HOLD, LOST, SUBSTITUTE, BUMPLESS)                              \
-                                    row(SUBSTITUTE, OFF, OFF, AT_ONCE)                             \
-                                        row(SUBSTITUTE, MANUAL, MANUAL, BUMPLESS)                  \
-                                            row(SUBSTITUTE, TRUSTED, AUTOMATIC, BUMPLESS)          \
-                                                row(SUBSTITUTE, DOUBTED, HOLD, BUMPLESS)           \
-                                                    row(SUBSTITUTE, LOST, SUBSTITUTE, NONE)
+/* clang-format off */
+#define BELT_TRANSITIONS(row)                      \
+    row(OFF,        OFF,     OFF,        NONE)     \
+    row(OFF,        MANUAL,  MANUAL,     AT_ONCE)  \
+    row(OFF,        TRUSTED, AUTOMATIC,  AT_ONCE)  \
+    row(OFF,        DOUBTED, HOLD,       AT_ONCE)  \
+    row(OFF,        LOST,    SUBSTITUTE, AT_ONCE)  \
+    row(MANUAL,     OFF,     OFF,        AT_ONCE)  \
+    row(MANUAL,     MANUAL,  MANUAL,     NONE)     \
+    row(MANUAL,     TRUSTED, AUTOMATIC,  BUMPLESS) \
+    row(MANUAL,     DOUBTED, HOLD,       BUMPLESS) \
+    row(MANUAL,     LOST,    SUBSTITUTE, BUMPLESS) \
+    row(AUTOMATIC,  OFF,     OFF,        AT_ONCE)  \
+    row(AUTOMATIC,  MANUAL,  MANUAL,     BUMPLESS) \
+    row(AUTOMATIC,  TRUSTED, AUTOMATIC,  NONE)     \
+    row(AUTOMATIC,  DOUBTED, HOLD,       BUMPLESS) \
+    row(AUTOMATIC,  LOST,    SUBSTITUTE, BUMPLESS) \
+    row(HOLD,       OFF,     OFF,        AT_ONCE)  \
+    row(HOLD,       MANUAL,  MANUAL,     BUMPLESS) \
+    row(HOLD,       TRUSTED, AUTOMATIC,  BUMPLESS) \
+    row(HOLD,       DOUBTED, HOLD,       NONE)     \
+    row(HOLD,       LOST,    SUBSTITUTE, BUMPLESS) \
+    row(SUBSTITUTE, OFF,     OFF,        AT_ONCE)  \
+    row(SUBSTITUTE, MANUAL,  MANUAL,     BUMPLESS) \
+    row(SUBSTITUTE, TRUSTED, AUTOMATIC,  BUMPLESS) \
+    row(SUBSTITUTE, DOUBTED, HOLD,       BUMPLESS) \
+    row(SUBSTITUTE, LOST,    SUBSTITUTE, NONE)
+/* clang-format on */
 
 #endif

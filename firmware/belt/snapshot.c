@@ -75,10 +75,10 @@ static uint32_t newest(const belt_snapshot_t slots[2], uint32_t configuration) {
     return first ? 0u : (second ? 1u : 2u);
 }
 
-void belt_snapshot_take(const belt_controller_t *controller, belt_snapshot_t slots[2]) {
+belt_status_t belt_snapshot_take(const belt_controller_t *controller, belt_snapshot_t slots[2]) {
     BELT_ASSERT((controller != NULL) && (slots != NULL));
     if ((controller == NULL) || (slots == NULL) || !belt_is_running(controller)) {
-        return;
+        return BELT_NO_SNAPSHOT;
     }
     const uint32_t configuration = crc_of_config(&controller->config);
     const uint32_t last = newest(slots, configuration);
@@ -91,6 +91,7 @@ void belt_snapshot_take(const belt_controller_t *controller, belt_snapshot_t slo
     slot->level_setpoint = controller->config.level_setpoint;
     memcpy(slot->state, (const unsigned char *)controller + STATE_BEGIN, BELT_STATE_SIZE);
     slot->crc = crc_of_slot(slot);
+    return BELT_OK;
 }
 
 /** What outlives a long stop is carried over into a controller that begins anew. */

@@ -49,12 +49,15 @@ typedef struct {
 uint32_t belt_snapshot_crc(uint32_t crc, const void *bytes, size_t size);
 
 /** Writes into the older slot what `controller` knows, between two steps. A controller that is not
- * running (belt_init not passed, no level yet, BELT_CORRUPT) is not written: the slots stay. */
-void belt_snapshot_take(const belt_controller_t *controller, belt_snapshot_t slots[2]);
+ * running (belt_init not passed, no level yet, BELT_CORRUPT, a changed configuration) is not written:
+ * the slots stay. Returns BELT_OK, or BELT_NO_SNAPSHOT where nothing was written. */
+belt_status_t belt_snapshot_take(const belt_controller_t *controller, belt_snapshot_t slots[2]);
 
 /**
- * Starts a controller from the newer of the valid slots; `down_periods` is the number of control
- * periods since its last step that no step saw. Returns
+ * Starts a controller from the newer of the valid slots. `down_periods` is the number of control
+ * periods since the step after which the snapshot was taken, the next step's own not counted: those
+ * it still made before the power went, too. The set-point is the snapshot's, whatever the
+ * configuration says; the command begins at the last one. Returns
  *   BELT_OK            it goes on; with down_periods 0 to the bit as if nothing had been;
  *   BELT_SNAPSHOT_OLD  it goes on with what a long stop leaves;
  *   BELT_NO_SNAPSHOT   no slot is valid: the controller is as it was; or one is, by its CRC, and yet

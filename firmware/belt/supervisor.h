@@ -17,7 +17,8 @@
 
 typedef struct {
     belt_mode_t requested;   /**< what the operator asks for: off, manual or automatic. */
-    belt_real_t manual_flux; /**< the operator's; else it follows the command [parts/s]. */
+    belt_real_t manual_flux; /**< the operator's; begins with the command in force when manual
+                                  is asked for [parts/s]. */
     belt_real_t bump;        /**< what is left between the last mode's command and this one's
                                   [parts/s]. */
 } belt_supervisor_t;

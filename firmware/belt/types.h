@@ -136,7 +136,7 @@ typedef enum {
     BELT_ESTIMATOR_KIND,  /**< estimator is one of its words. */
     BELT_ESTIMATOR_TIME,  /**< estimator_time is at least the time between two samples. */
     BELT_FLUX_RATE_MAX,   /**< flux_rate_max is a number in its range. */
-    BELT_SUBSTITUTE_FLUX, /**< 0 <= substitute_flux <= inlet_flux_max. */
+    BELT_SUBSTITUTE_FLUX, /**< 0 <= substitute_flux <= inlet_flux_max, flux bound. */
     BELT_LEVEL_STEP_MAX,  /**< level_step_max is a number in its range. */
     BELT_TRANSFER_TIME,   /**< transfer_time is a number in its range. */
 
@@ -144,12 +144,12 @@ typedef enum {
     BELT_MISUSE,         /**< a null pointer, or a step before a successful init. */
     BELT_NO_LEVEL,       /**< no level has been trusted yet: the law cannot begin. */
     BELT_INPUT_REJECTED, /**< an input was not trusted: command.error_bits say which. */
-    BELT_PERIODS_MISSED, /**< steps came late or twice: command.error_bits say how. */
+    BELT_PERIODS_MISSED, /**< steps came late, twice or after a stop: see error_bits. */
     BELT_LINE_DEVIATES,  /**< valve or line do not do what they are told: see command.error_bits. */
     BELT_CORRUPT,        /**< the controller's own memory has changed: start it anew. */
     BELT_UNKNOWN_MODE,   /**< a mode nobody can ask for; the old request stands. */
     BELT_NOT_MANUAL,     /**< a manual flux while manual was not asked for; nothing changed. */
-    BELT_MANUAL_FLUX,    /**< a manual flux that is no number within 0 ... inlet_flux_max. */
+    BELT_MANUAL_FLUX,    /**< a manual flux that is no number within its limits. */
     BELT_NO_SNAPSHOT,    /**< no slot holds a whole snapshot of this build and configuration. */
     BELT_SNAPSHOT_OLD    /**< restored in part: the stop was too long for history and belt. */
 } belt_status_t;

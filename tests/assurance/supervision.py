@@ -44,7 +44,7 @@ CATCH_UP = 100  # BELT_CATCH_UP_PERIODS
 LEVEL_MARGIN = 0.1  # BELT_LEVEL_MARGIN; no level of a walk stands at the very edge
 LEVEL_IS_BAD = ("LEVEL_MISSING", "LEVEL_INVALID", "LEVEL_STALE", "LEVEL_STEP", "PERIODS_LOST")
 LINE = ("FLUX_MISMATCH", "DISTURBANCE_LIMIT")
-PERIODS = ("PERIODS_LATE", "PERIOD_REPEATED")
+PERIODS = ("PERIODS_LATE", "PERIODS_LOST", "PERIOD_REPEATED", "HISTORY_SHORT")
 
 
 @dataclass
@@ -87,6 +87,7 @@ class Oracle:
     sample: int = 0
     age: int = 0
     good: int = 0
+    regained: int = 0
     bad: int = 0
     mismatch: int = 0
     found: set = field(default_factory=set)
@@ -105,6 +106,8 @@ class Oracle:
         if not 0 <= flux <= self.config["inlet_flux_max"]:
             return "BELT_MANUAL_FLUX"
         self.manual = flux
+        if self.mode == "MANUAL":
+            self.bump = 0.0
         return "BELT_OK"
 
     def periods(self, row):
@@ -135,12 +138,18 @@ class Oracle:
         agrees = abs(level - self.elsewhere) <= reach
         self.agreeing = self.agreeing + 1 if agrees else 1
         self.elsewhere = level
-        return self.agreeing >= self.config["recovery_samples"]
+        if self.agreeing < self.config["recovery_samples"]:
+            return False
+        self.agreeing = 0
+        self.good = self.config["recovery_samples"]
+        return True
 
     def takes_level(self, row, periods):
         """Whether this period brings a level that is trusted."""
         if not row.has("LEVEL"):
-            self.found.add("LEVEL_MISSING")
+            self.age += periods
+            if self.age >= self.config["sample_periods"]:
+                self.found.add("LEVEL_MISSING")
             return False
         capacity = self.config["level_capacity"]
         if not -LEVEL_MARGIN * capacity <= row.level <= (1 + LEVEL_MARGIN) * capacity:
@@ -154,6 +163,8 @@ class Oracle:
         if not self.is_believed(row.level):
             self.found.add("LEVEL_STEP")
             return False
+        if self.level is None:
+            self.good = self.config["recovery_samples"]
         self.level = min(max(row.level, 0.0), capacity)
         return True
 
@@ -162,13 +173,19 @@ class Oracle:
             self.good = 0
             # late with a good sample: that one is doubted, and no more is known to be bad
             self.bad += 1 if is_taken else periods
-            is_lost = self.health == "LOST" or self.bad > self.config["hold_periods"]
-            self.health = "LOST" if is_lost else "DOUBTED"
+            if self.bad > self.config["hold_periods"]:
+                self.regained = 0
+                self.health = "LOST"
+            elif self.health != "LOST":
+                self.health = "DOUBTED"
         elif is_taken:
             self.bad = 0
             self.good += 1
+            self.regained += 1
             if self.good >= self.config["recovery_samples"] or self.health == "TRUSTED":
                 self.health = "TRUSTED"
+            elif self.regained >= self.config["recovery_samples"]:
+                self.health = "DOUBTED"
 
     def check_valve(self, row):
         if not row.has("APPLIED_FLUX"):

@@ -193,6 +193,23 @@ static void test_counts_that_are_not_present_are_not_read(void) {
     }
 }
 
+static void test_estimator_believes_the_models_outlet_flux_and_not_the_measured_one(void) {
+    static belt_controller_t other;
+    config.estimator = BELT_ESTIMATOR_ON;
+    start();
+    (void)begin_at_rest();
+    steps_level(0.25, 20u);
+    other = controller;
+    (void)step_level(0.25);
+    const belt_estimator_t by_model = controller.estimator;
+    controller = other;
+    measurement.present |= BELT_HAS_OUTLET_FLUX;
+    measurement.outlet_flux = BELT_REAL(0.1); /* a third of the model's */
+    (void)step_level(0.25);
+    TEST_ASSERT_TRUE(controller.estimator.level == by_model.level);
+    TEST_ASSERT_TRUE(controller.estimator.disturbance == by_model.disturbance);
+}
+
 int main(void) {
     UNITY_BEGIN();
     RUN_TEST(test_without_any_level_nothing_is_fed);
@@ -210,5 +227,6 @@ int main(void) {
     RUN_TEST(test_without_estimator_a_sound_line_gets_the_papers_bits_whatever_else_is_stated);
     RUN_TEST(test_counts_that_say_all_is_in_order_change_no_bit);
     RUN_TEST(test_counts_that_are_not_present_are_not_read);
+    RUN_TEST(test_estimator_believes_the_models_outlet_flux_and_not_the_measured_one);
     return UNITY_END();
 }

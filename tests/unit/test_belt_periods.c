@@ -101,7 +101,7 @@ static void test_beyond_the_cap_the_level_is_doubted(void) {
         elapse(1u);
         (void)step_level(0.25);
         elapse(lost[i]);
-        TEST_ASSERT_EQUAL(BELT_INPUT_REJECTED, step_level(0.25));
+        TEST_ASSERT_EQUAL(BELT_PERIODS_MISSED, step_level(0.25));
         TEST_ASSERT_EQUAL_HEX32(BELT_ERROR_PERIODS_LOST, command.error_bits);
         TEST_ASSERT_EQUAL(BELT_MODE_HOLD, command.mode);
         TEST_ASSERT_EQUAL_UINT32(BELT_CATCH_UP_PERIODS, controller.trusted.periods);
@@ -217,6 +217,29 @@ static void test_a_long_rest_leaves_no_trace(void) {
     }
 }
 
+static void test_late_step_corrects_the_estimate_once_however_many_stretches_it_takes(void) {
+    static belt_controller_t before;
+    config.estimator = BELT_ESTIMATOR_ON;
+    start();
+    elapse(1u);
+    (void)begin_at_rest();
+    steps_level(0.3, 50u);
+    before = controller;
+    elapse(35u); /* four stretches of a node spacing, 10 periods each */
+    (void)step_blind();
+    const double expected = (double)controller.estimator.level;
+    controller = before;
+    (void)step_level(0.4);
+    const belt_estimator_gains_t *gains = &controller.estimator_gains;
+    const double old = (double)before.estimator.difference;
+    const double difference = old + (double)gains->filter * (0.4 - expected - old);
+    const double gained = (double)gains->disturbance * difference;
+    /* Six roundings of numbers below 0.4, of which the disturbance takes its gain's share. */
+    TEST_ASSERT_DOUBLE_WITHIN(6 * EPSILON, gained,
+                              (double)controller.estimator.disturbance -
+                                  (double)before.estimator.disturbance);
+}
+
 int main(void) {
     UNITY_BEGIN();
     RUN_TEST(test_late_steps_know_what_steps_on_time_know);
@@ -227,5 +250,6 @@ int main(void) {
     RUN_TEST(test_step_called_twice_with_the_same_sample_does_not_doubt_the_level);
     RUN_TEST(test_hold_counts_periods_and_not_steps);
     RUN_TEST(test_a_long_rest_leaves_no_trace);
+    RUN_TEST(test_late_step_corrects_the_estimate_once_however_many_stretches_it_takes);
     return UNITY_END();
 }

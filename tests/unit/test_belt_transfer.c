@@ -163,6 +163,31 @@ static void test_rate_limit_holds_at_every_step_of_any_walk_through_the_modes(vo
     }
 }
 
+static void test_manual_flux_that_moves_before_the_bump_has_gone_is_what_is_fed(void) {
+    steps_level(0.25, 50u);
+    ask(BELT_MODE_MANUAL);
+    (void)step_level(0.25);
+    TEST_ASSERT_EQUAL(BELT_OK, belt_set_manual_flux(&controller, BELT_REAL(2.0)));
+    (void)step_level(0.25);
+    TEST_ASSERT_TRUE(command.inlet_flux == BELT_REAL(2.0));
+    TEST_ASSERT_EQUAL(BELT_OK, belt_set_manual_flux(&controller, BELT_REAL(0.5)));
+    (void)step_level(0.25);
+    TEST_ASSERT_TRUE(command.inlet_flux == BELT_REAL(0.5));
+}
+
+static void test_manual_asked_for_again_keeps_its_flux(void) {
+    steps_level(0.25, 50u);
+    config.flux_rate_max = BELT_REAL(4); /* 0.01 parts/s a step: the command is still on its way */
+    start();
+    steps_level(0.25, 5u);
+    ask(BELT_MODE_MANUAL);
+    TEST_ASSERT_EQUAL(BELT_OK, belt_set_manual_flux(&controller, BELT_REAL(0.75)));
+    (void)step_level(0.25);
+    TEST_ASSERT_TRUE(command.inlet_flux < BELT_REAL(0.75));
+    ask(BELT_MODE_MANUAL);
+    TEST_ASSERT_TRUE(controller.supervisor.manual_flux == BELT_REAL(0.75));
+}
+
 int main(void) {
     UNITY_BEGIN();
     RUN_TEST(test_manual_after_any_mode_begins_with_the_last_command);
@@ -172,5 +197,7 @@ int main(void) {
     RUN_TEST(test_hold_substitute_and_automatic_again_go_over_without_a_jump);
     RUN_TEST(test_one_good_sample_does_not_end_a_hold_and_one_bad_begins_it_anew);
     RUN_TEST(test_rate_limit_holds_at_every_step_of_any_walk_through_the_modes);
+    RUN_TEST(test_manual_flux_that_moves_before_the_bump_has_gone_is_what_is_fed);
+    RUN_TEST(test_manual_asked_for_again_keeps_its_flux);
     return UNITY_END();
 }

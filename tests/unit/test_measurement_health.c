@@ -164,6 +164,51 @@ static void test_refused_and_stale_samples_count_against_the_quality(void) {
     assert_level(0.5);
 }
 
+/* --- a level that comes with gaps --- */
+
+static void test_lost_level_that_comes_with_gaps_is_doubted_and_no_longer_lost(void) {
+    (void)sample(0.5);
+    for (unsigned i = 0; i <= HOLD; ++i) {
+        (void)miss();
+    }
+    assert_health(BELT_LEVEL_LOST);
+    for (unsigned i = 1; i < RECOVERY; ++i) { /* one good, one missing: never two in a row */
+        (void)sample(0.5);
+        (void)miss();
+        assert_health(BELT_LEVEL_LOST);
+    }
+    (void)sample(0.5);
+    assert_health(BELT_LEVEL_DOUBTED);
+    (void)miss();
+    assert_health(BELT_LEVEL_DOUBTED);
+}
+
+static void test_gap_longer_than_the_hold_loses_what_was_found(void) {
+    (void)sample(0.5);
+    for (unsigned i = 0; i <= HOLD; ++i) {
+        (void)miss();
+    }
+    for (unsigned i = 1; i < RECOVERY; ++i) {
+        (void)sample(0.5);
+        (void)miss();
+    }
+    for (unsigned i = 0; i < HOLD; ++i) {
+        (void)miss();
+    }
+    TEST_ASSERT_EQUAL_UINT32(0u, memory.found_samples);
+    (void)sample(0.5);
+    assert_health(BELT_LEVEL_LOST);
+}
+
+static void test_first_level_is_trusted_however_long_it_was_waited_for(void) {
+    for (unsigned i = 0; i < 10u * HOLD; ++i) {
+        (void)miss();
+    }
+    assert_health(BELT_LEVEL_LOST);
+    TEST_ASSERT_EQUAL_HEX32(0u, sample(0.5));
+    assert_health(BELT_LEVEL_TRUSTED);
+}
+
 int main(void) {
     UNITY_BEGIN();
     RUN_TEST(test_one_bad_period_is_doubt);
@@ -179,5 +224,8 @@ int main(void) {
     RUN_TEST(test_quality_stays_a_share);
     RUN_TEST(test_quality_that_is_no_number_is_a_share_again);
     RUN_TEST(test_refused_and_stale_samples_count_against_the_quality);
+    RUN_TEST(test_lost_level_that_comes_with_gaps_is_doubted_and_no_longer_lost);
+    RUN_TEST(test_gap_longer_than_the_hold_loses_what_was_found);
+    RUN_TEST(test_first_level_is_trusted_however_long_it_was_waited_for);
     return UNITY_END();
 }

@@ -91,7 +91,6 @@ static void test_hold_is_over_after_so_many_periods_however_late_the_steps(void)
 
 static void test_counts_stop_where_they_make_no_difference_however_late_the_steps(void) {
     limits.hold_periods = 20;
-    limits.sample_periods = 30;
     measurement.present = ALL_PRESENT & ~BELT_HAS_LEVEL;
     (void)step_after(15u);
     TEST_ASSERT_EQUAL_UINT32(15u, memory.bad_periods);
@@ -99,6 +98,7 @@ static void test_counts_stop_where_they_make_no_difference_however_late_the_step
     TEST_ASSERT_EQUAL_UINT32(21u, memory.bad_periods);
     (void)step_after(CAP);
     TEST_ASSERT_EQUAL_UINT32(21u, memory.bad_periods);
+    limits.sample_periods = 30;
     measurement.present = ALL_PRESENT;
     (void)step_after(1u);
     measurement.elapsed_ticks = CAP;

@@ -96,15 +96,13 @@ static void test_one_sample_is_enough_where_recovery_takes_one(void) {
     TEST_ASSERT_EQUAL(BELT_LEVEL_TRUSTED, memory.health);
 }
 
-static void test_believed_step_is_a_good_sample_like_any_other(void) {
+static void test_samples_that_agreed_were_good_ones_after_all(void) {
     (void)sample(0.875);
     (void)sample(0.875);
-    (void)sample(0.875);
-    TEST_ASSERT_EQUAL_UINT32(1u, memory.good_samples);
     TEST_ASSERT_EQUAL(BELT_LEVEL_DOUBTED, memory.health);
     (void)sample(0.875);
-    (void)sample(0.875);
     TEST_ASSERT_EQUAL(BELT_LEVEL_TRUSTED, memory.health);
+    TEST_ASSERT_EQUAL_UINT32(0u, memory.agreeing_samples);
 }
 
 static void test_missing_level_between_them_leaves_the_count_of_those_that_agree(void) {
@@ -167,7 +165,7 @@ int main(void) {
     RUN_TEST(test_sample_that_disagrees_begins_the_count_anew);
     RUN_TEST(test_agreement_a_unit_beyond_the_limit_is_none);
     RUN_TEST(test_one_sample_is_enough_where_recovery_takes_one);
-    RUN_TEST(test_believed_step_is_a_good_sample_like_any_other);
+    RUN_TEST(test_samples_that_agreed_were_good_ones_after_all);
     RUN_TEST(test_missing_level_between_them_leaves_the_count_of_those_that_agree);
     RUN_TEST(test_out_of_range_near_the_last_is_clamped_and_no_step);
     RUN_TEST(test_out_of_range_and_far_from_the_last_is_a_step_besides);

@@ -105,7 +105,10 @@ static void test_every_combination_of_faults_says_each_of_them(void) {
                     const uint32_t bits = level_faults[i].error_bits | flux_faults[j].error_bits |
                                           density_faults[k].error_bits |
                                           period_faults[m].error_bits;
-                    TEST_ASSERT_EQUAL_HEX32(bits, step_after(period_faults[m].elapsed).error_bits);
+                    /* A step repeated in its period reads nothing. */
+                    const uint32_t said =
+                        (period_faults[m].elapsed == 0u) ? BELT_ERROR_PERIOD_REPEATED : bits;
+                    TEST_ASSERT_EQUAL_HEX32(said, step_after(period_faults[m].elapsed).error_bits);
                 }
             }
         }

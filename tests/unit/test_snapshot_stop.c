@@ -41,7 +41,7 @@ static void test_stop_of_a_whole_window_leaves_a_short_history_until_it_is_refil
     take();
     /* Window and length are 80 and 82 periods; the next step brings 81 of them. */
     TEST_ASSERT_EQUAL(BELT_OK, restore(80u));
-    TEST_ASSERT_EQUAL(BELT_INPUT_REJECTED, step_restored(0.25, &answer));
+    TEST_ASSERT_EQUAL(BELT_PERIODS_MISSED, step_restored(0.25, &answer));
     TEST_ASSERT_EQUAL_HEX32(BELT_ERROR_PERIODS_LATE | BELT_ERROR_HISTORY_SHORT, answer.error_bits);
     TEST_ASSERT_EQUAL(BELT_MODE_AUTOMATIC, answer.mode);
 }
@@ -68,7 +68,7 @@ static void test_longer_stop_leaves_an_empty_belt_and_what_the_operator_said(voi
     for (size_t i = 0; i < sizeof stops / sizeof stops[0]; ++i) {
         TEST_ASSERT_EQUAL(BELT_SNAPSHOT_OLD, restore(stops[i]));
         TEST_ASSERT_TRUE(restored.config.level_setpoint == BELT_REAL(0.4));
-        TEST_ASSERT_EQUAL(BELT_INPUT_REJECTED, step_restored(0.125, &answer));
+        TEST_ASSERT_EQUAL(BELT_PERIODS_MISSED, step_restored(0.125, &answer));
         TEST_ASSERT_EQUAL_HEX32(BELT_ERROR_HISTORY_SHORT, answer.error_bits);
         TEST_ASSERT_EQUAL(BELT_MODE_MANUAL, answer.mode);
         TEST_ASSERT_TRUE(answer.inlet_flux == BELT_REAL(0.7));

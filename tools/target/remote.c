@@ -155,13 +155,14 @@ belt_status_t belt_set_manual_flux(belt_controller_t *controller, belt_real_t in
 }
 
 /* The slots are the other side's. */
-void belt_snapshot_take(const belt_controller_t *controller, belt_snapshot_t slots[2]) {
+belt_status_t belt_snapshot_take(const belt_controller_t *controller, belt_snapshot_t slots[2]) {
     (void)controller;
     (void)slots;
     exchange_t exchange = exchange_write(&message, EXCHANGE_TAKE);
     if (call(&exchange) != BELT_OK) {
         fail("the target has no memory for snapshots");
     }
+    return BELT_OK;
 }
 
 belt_status_t belt_snapshot_restore(belt_controller_t *controller, const belt_config_t *config,

@@ -53,7 +53,7 @@ static belt_status_t step(exchange_t *call) {
 
 #if SERVER_SLOTS
 static belt_status_t take(void) {
-    belt_snapshot_take(&controller, slots);
+    (void)belt_snapshot_take(&controller, slots);
     return BELT_OK;
 }
 
