@@ -15,6 +15,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "../unit/paper_case.h"
 #include "fields.h"
 #include "small_line.h"
 
@@ -52,28 +53,14 @@ static uint64_t random_bits(uint64_t *state) {
 }
 
 static belt_config_t configuration(void) {
-    const belt_config_t config = {
-        .belt_length = BELT_REAL(2),
-        .processing_time = BELT_REAL(0.25),
-        .speed_window = BELT_REAL(0.2),
-        .congestion_scale = BELT_REAL(1),
-        .connectivity = BELT_REAL(0.5),
-        .service_rate_max = BELT_REAL(0.8),
-        .service_time = BELT_REAL(1),
-        .level_capacity = BELT_REAL(1),
-        .loss_rate = {BELT_REAL(1)},
-        .loss_count = 1,
-        .level_setpoint = BELT_REAL(0.3),
-        .nominal_flux_max = BELT_REAL(1.2),
-        .slope_kind = BELT_SLOPE_MARGIN,
-        .slope = BELT_REAL(5),
-        .node_count = 20,
-        .period = BELT_REAL(PERIOD),
-        .inlet_flux_max = BELT_REAL(FLUX_MAX),
-        .estimator = BELT_ESTIMATOR_ON,
-        .flux_rate_max = BELT_REAL(FLUX_STEP / PERIOD),
-        .substitute_flux = BELT_REAL(0.6),
-    };
+    belt_config_t config = paper_case();
+    config.rework_rate = BELT_REAL(0); /* small_line.h has none */
+    config.slope = BELT_REAL(5);
+    config.period = BELT_REAL(PERIOD);
+    config.inlet_flux_max = BELT_REAL(FLUX_MAX);
+    config.estimator = BELT_ESTIMATOR_ON;
+    config.flux_rate_max = BELT_REAL(FLUX_STEP / PERIOD);
+    config.substitute_flux = BELT_REAL(0.6);
     return config;
 }
 

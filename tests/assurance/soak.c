@@ -14,6 +14,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "../unit/paper_case.h"
 #include "small_line.h"
 
 #define SETTLING 200000u
@@ -41,26 +42,9 @@ static bounds_t first_stretch;
 static bounds_t last_stretch;
 
 static belt_config_t configuration(void) {
-    const belt_config_t config = {
-        .belt_length = BELT_REAL(2),
-        .processing_time = BELT_REAL(0.25),
-        .speed_window = BELT_REAL(0.2),
-        .congestion_scale = BELT_REAL(1),
-        .connectivity = BELT_REAL(0.5),
-        .service_rate_max = BELT_REAL(0.8),
-        .service_time = BELT_REAL(1),
-        .level_capacity = BELT_REAL(1),
-        .loss_rate = {BELT_REAL(1)},
-        .loss_count = 1,
-        .level_setpoint = BELT_REAL(0.3),
-        .nominal_flux_max = BELT_REAL(1.2),
-        .slope_kind = BELT_SLOPE_MARGIN,
-        .slope = BELT_REAL(20),
-        .node_count = 20,
-        .period = BELT_REAL(0.0025),
-        .inlet_flux_max = BELT_NO_FLUX_LIMIT,
-        .estimator = BELT_ESTIMATOR_ON,
-    };
+    belt_config_t config = paper_case();
+    config.rework_rate = BELT_REAL(0); /* small_line.h has none */
+    config.estimator = BELT_ESTIMATOR_ON;
     return config;
 }
 

@@ -12,6 +12,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../unit/paper_case.h"
 #include "belt/belt.h"
 
 typedef struct {
@@ -26,34 +27,16 @@ typedef struct {
 } row_t;
 
 static belt_config_t configuration(void) {
-    const belt_config_t config = {
-        .belt_length = BELT_REAL(2),
-        .processing_time = BELT_REAL(0.25),
-        .speed_window = BELT_REAL(0.2),
-        .congestion_scale = BELT_REAL(1),
-        .connectivity = BELT_REAL(0.5),
-        .service_rate_max = BELT_REAL(0.8),
-        .service_time = BELT_REAL(1),
-        .level_capacity = BELT_REAL(1),
-        .rework_rate = BELT_REAL(0.1),
-        .loss_rate = {BELT_REAL(1)},
-        .loss_count = 1,
-        .level_setpoint = BELT_REAL(0.3),
-        .nominal_flux_max = BELT_REAL(1.2),
-        .slope_kind = BELT_SLOPE_MARGIN,
-        .slope = BELT_REAL(20),
-        .node_count = 20,
-        .period = BELT_REAL(0.0025),
-        .inlet_flux_max = BELT_REAL(2.5),
-        .estimator = BELT_ESTIMATOR_ON,
-        .flux_rate_max = BELT_REAL(160),
-        .substitute_flux = BELT_REAL(0.625),
-        .level_step_max = BELT_REAL(0.125),
-        .transfer_time = BELT_REAL(0.02),
-        .sample_periods = 2,
-        .hold_periods = 8,
-        .recovery_samples = 4,
-    };
+    belt_config_t config = paper_case();
+    config.inlet_flux_max = BELT_REAL(2.5);
+    config.estimator = BELT_ESTIMATOR_ON;
+    config.flux_rate_max = BELT_REAL(160);
+    config.substitute_flux = BELT_REAL(0.625);
+    config.level_step_max = BELT_REAL(0.125);
+    config.transfer_time = BELT_REAL(0.02);
+    config.sample_periods = 2;
+    config.hold_periods = 8;
+    config.recovery_samples = 4;
     return config;
 }
 
