@@ -122,8 +122,7 @@ static void judge_good(belt_gate_t *gate, const belt_limits_t *limits) {
     gate->found_samples = one_more(gate->found_samples, limits->recovery_samples);
     if (gate->good_samples >= limits->recovery_samples) {
         gate->health = BELT_LEVEL_TRUSTED;
-    } else if ((gate->health != BELT_LEVEL_TRUSTED) &&
-               (gate->found_samples >= limits->recovery_samples)) {
+    } else if (gate->found_samples >= limits->recovery_samples) {
         gate->health = BELT_LEVEL_DOUBTED;
     }
 }
