@@ -186,8 +186,8 @@ static void follow_line(belt_controller_t *controller, const belt_measurement_t 
     const belt_trusted_t *trusted = &controller->trusted;
     const uint32_t longest = controller->limits.stretch_periods;
     uint32_t passed = 0;
-    while (passed <
-           trusted->periods) { /* at most BELT_CATCH_UP_PERIODS turns: each takes one or more */
+    /* At most BELT_CATCH_UP_PERIODS turns: each takes one period or more. */
+    while (passed < trusted->periods) {
         const uint32_t rest = trusted->periods - passed;
         const uint32_t periods = (rest < longest) ? rest : longest;
         const belt_real_t outlet_flux = move_belt(controller, periods);
