@@ -24,7 +24,7 @@
  * One number to tune: estimator_time. Shorter follows faster, but lets noise and a wrong dead time
  * through; below some ten sample times it chatters. The rule, belt_config_estimator_time(), takes it from the dead time of the empty line.
  *
- * Cost: about 30 instructions a period.
+ * Cost: about 60 instructions a period.
  */
 #ifndef BELT_ESTIMATOR_H
 #define BELT_ESTIMATOR_H
