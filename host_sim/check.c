@@ -29,6 +29,10 @@ bool check_report(const scenario_t *scenario, FILE *out) {
     belt_nominal_law_init(&law, &config);
     fprintf(out, "law: slope %.6g 1/s, gains %.6g below and %.6g above 1/parts\n",
             (double)belt_config_slope(&config), (double)law.gains.below, (double)law.gains.above);
+    fprintf(out, "estimator: %s, time constant %.6g s%s\n",
+            (config.estimator == BELT_ESTIMATOR_ON) ? "on" : "off",
+            (double)belt_config_estimator_time(&config),
+            (config.estimator_time > BELT_REAL(0)) ? "" : " by the rule");
     fprintf(out,
             "equilibrium: level %.6g parts, outlet flux %.6g parts/s, inlet flux %.6g parts/s, "
             "density %.6g (outlet) to %.6g (inlet) parts/m\n",
