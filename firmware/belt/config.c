@@ -60,6 +60,10 @@ belt_real_t belt_config_loss_exponent(const belt_config_t *config) {
     return belt_config_loss_mean(config) * belt_config_dead_time_max(config);
 }
 
+uint32_t belt_config_sample_periods(const belt_config_t *config) {
+    return (config->sample_periods > 0u) ? config->sample_periods : 1u;
+}
+
 belt_real_t belt_config_estimator_time(const belt_config_t *config) {
     const bool is_left_0 =
         (config->estimator_time >= BELT_REAL(0)) && (config->estimator_time <= BELT_REAL(0));
@@ -186,9 +190,9 @@ static belt_rule_t supervisor_rule(const belt_config_t *config, belt_status_t co
             return closed(BELT_REAL(BELT_ESTIMATOR_OFF), BELT_REAL(config->estimator),
                           BELT_REAL(BELT_ESTIMATOR_ON));
         case BELT_ESTIMATOR_TIME: {
-            const uint16_t periods = (config->sample_periods > 0u) ? config->sample_periods : 1u;
-            belt_rule_t rule = closed(config->period * BELT_REAL(periods),
-                                      belt_config_estimator_time(config), BELT_DIMENSION_MAX);
+            belt_rule_t rule =
+                closed(config->period * BELT_REAL(belt_config_sample_periods(config)),
+                       belt_config_estimator_time(config), BELT_DIMENSION_MAX);
             /* Off, only a number is asked for. */
             rule.lower = (config->estimator == BELT_ESTIMATOR_ON) ? rule.lower : BELT_REAL(0);
             return rule;

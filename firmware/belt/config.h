@@ -152,6 +152,9 @@ belt_real_t belt_config_flux_bound(const belt_config_t *config);
  * it too [parts/m]. */
 belt_real_t belt_config_density_bound(const belt_config_t *config);
 
+/** sample_periods, or its default where it is 0. */
+uint32_t belt_config_sample_periods(const belt_config_t *config);
+
 /** estimator_time, or where it is 0 by the rule: 0.74 times the dead time of the empty line, P D. At
  * that a dead time that the model has 20 % wrong does not oscillate, and no more is asked of noise:
  * docs/ROBUSTNESS.md has the map [s]. */

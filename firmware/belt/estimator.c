@@ -12,9 +12,7 @@ static belt_real_t forgotten(belt_real_t interval, belt_real_t time) {
 }
 
 void belt_estimator_gains_init(belt_estimator_gains_t *gains, const belt_config_t *config) {
-    const belt_real_t samples =
-        BELT_REAL((config->sample_periods > 0u) ? config->sample_periods : 1u);
-    const belt_real_t interval = samples * config->period;
+    const belt_real_t interval = BELT_REAL(belt_config_sample_periods(config)) * config->period;
     const belt_real_t time = belt_config_estimator_time(config);
     /* With z - 1 = w the error has the polynomial
      *     w^3 + F (1 + L + interval*M) w^2 + F (L + 2 interval*M) w + F interval*M,

@@ -25,7 +25,7 @@ void belt_limits_init(belt_limits_t *limits, const belt_config_t *config) {
     limits->flux_tolerance = BELT_REAL(0.05) * config->nominal_flux_max;
     limits->level_step_max =
         stated_or(config->level_step_max, BELT_REAL(0.25) * config->level_capacity);
-    limits->sample_periods = (config->sample_periods > 0u) ? config->sample_periods : 1u;
+    limits->sample_periods = belt_config_sample_periods(config);
     const belt_real_t half_dead_time = BELT_HALF * dead_time / config->period;
     limits->hold_periods =
         (config->hold_periods > 0u) ? config->hold_periods : (uint32_t)half_dead_time;

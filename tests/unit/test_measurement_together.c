@@ -2,20 +2,11 @@
 /* Every combination of what can be wrong in one period. */
 #include "gate_case.h"
 
-#define CAP 100u /* BELT_CATCH_UP_PERIODS, written down again */
-
 void setUp(void) {
     begin_with_all_inputs();
 }
 
 void tearDown(void) {
-}
-
-/** One period after `elapsed` ticks, with a new sample. */
-static belt_trusted_t step_after(uint32_t elapsed) {
-    measurement.elapsed_ticks = elapsed;
-    measurement.sample_count += 1u;
-    return step();
 }
 
 /* What can be wrong with each input; the bits said of it. */
