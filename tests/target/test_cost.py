@@ -11,32 +11,42 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs" / "COST.md"
+README = ROOT / "README.md"
+PART = re.compile(r"<!-- tools/cost: (\w+) begin -->\n(.*?)<!-- tools/cost: \1 end -->", re.DOTALL)
 # Compilers of other versions count a little differently.
 DRIFT = 0.03
 
 
 @pytest.fixture(scope="module")
-def rows(tmp_path_factory):
+def found(tmp_path_factory):
     out = tmp_path_factory.mktemp("cost") / "rows.json"
-    found = subprocess.run(
+    done = subprocess.run(
         [sys.executable, ROOT / "tools" / "cost", "--quick", "--json", out],
         capture_output=True,
         text=True,
     )
-    assert found.returncode == 0, found.stdout + found.stderr
-    return {row["mode"]: row for row in json.loads(out.read_text())["rows"]}
+    assert done.returncode == 0, done.stdout + done.stderr
+    return json.loads(out.read_text())
 
 
-def stated():
-    """The page's row of each mode for a Cortex-M4F with 20 nodes."""
-    lines = [
-        line.strip("| \n").split(" | ") for line in PAGE.read_text().splitlines() if "|" in line
+@pytest.fixture(scope="module")
+def rows(found):
+    return {row["mode"]: row for row in found["rows"]}
+
+
+def table(path, name):
+    """The rows of a table that tools/cost has written, each by the names of its columns."""
+    text = dict(PART.findall(path.read_text(encoding="utf-8")))[name]
+    head, _, *lines = [
+        [cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines()
     ]
-    head = next(line for line in lines if line[0] == "target")
-    table = [dict(zip(head, line)) for line in lines if len(line) == len(head)]
-    return {
-        row["mode"]: row for row in table if (row["target"], row["nodes"]) == ("cortex-m4f", "20")
-    }
+    return [dict(zip(head, line, strict=True)) for line in lines]
+
+
+def stated(name, **fixed):
+    """The page's row of each mode with 20 nodes."""
+    rows = [row for row in table(PAGE, name) if row.items() >= ({"nodes": "20"} | fixed).items()]
+    return {row["mode"]: row for row in rows}
 
 
 def test_all_modes_are_there(rows):
@@ -51,11 +61,35 @@ def test_all_modes_are_there(rows):
 def test_page_says_what_is_measured(rows, mode):
     names = {"instructions_max": "greatest", "path": "path", "flash": "flash"}
     names |= {"ram": "RAM", "stack": "stack"}
-    for key, name in names.items():
-        said = int(stated()[mode][name])
-        assert rows[mode][key] == pytest.approx(said, rel=DRIFT), (
-            f"{mode}, {name}: tools/cost --page"
+    said = stated("costs", target="cortex-m4f")[mode]
+    estimated = {"estimate": "cycles", "path_estimate": "its cycles"}
+    said_of = {name: said[column] for name, column in names.items()}
+    said_of |= {name: stated("estimates")[mode][column] for name, column in estimated.items()}
+    for name, number in said_of.items():
+        assert rows[mode][name] == pytest.approx(int(number), rel=DRIFT), (
+            f"{mode}, {name}: tools/cost --pages"
         )
+
+
+def test_readme_says_what_the_page_says():
+    shown, page = table(README, "costs"), table(PAGE, "costs")
+    wanted = [row for row in page if row["nodes"] == "20" and row["mode"] in ("law", "full")]
+    assert shown == wanted, "tools/cost --pages writes both"
+    assert len({row["target"] for row in shown}) == 9
+
+
+def test_parts_of_the_flash_are_all_of_it(found):
+    said = {row["part"]: int(row["bytes"]) for row in table(PAGE, "flash")}
+    all_calls = said.pop("all calls of `belt.h`")
+    assert sum(size for part, size in said.items() if part.endswith(".c`")) == all_calls
+    assert sum(found["flash"]["objects"].values()) == found["rows"][0]["flash"]
+    assert all_calls == int(stated("costs", target="cortex-m4f")["law"]["flash"])
+
+
+def test_estimate_lies_between_the_manuals_bounds(rows):
+    for row in rows.values():
+        assert row["instructions_max"] < row["estimate"] < 3 * row["instructions_max"]
+        assert row["estimate"] <= row["path_estimate"]
 
 
 def test_library_has_no_state_of_its_own(rows):

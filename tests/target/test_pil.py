@@ -94,6 +94,18 @@ def test_periodic_task_counts_what_it_misses():
     assert " 0 overruns" not in found.stdout
 
 
+def test_watchdog_resets_the_board_when_a_step_hangs():
+    found = pil("paper", "--target", "cortex-m4f", "--periodic", "--hang", "100")
+    assert found.returncode == 0, found.stdout + found.stderr
+    assert "fed 100 times, the watchdog has reset the board" in found.stdout
+
+
+def test_task_that_never_hangs_is_not_reset():
+    found = pil("paper", "--target", "cortex-m4f", "--periodic", "--hang", "1000000")
+    assert found.returncode == 2
+    assert "exit code 0" in found.stderr
+
+
 @pytest.mark.parametrize("optimization", ["O0", "Os", "O3"])
 def test_optimization_changes_no_bit(optimization):
     words = [sys.executable, ROOT / "tools" / "pil", "paper", "lossy_profile"]

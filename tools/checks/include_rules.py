@@ -38,11 +38,11 @@ USES_GAINS = {"nominal_law", "command"}
 FIRMWARE_STANDARD = {"stddef.h", "stdint.h", "stdbool.h", "float.h", "string.h", "limits.h"}
 
 # Those who speak with the controller on the scenario's behalf; only they may include each other.
-SPEAKS_WITH_THE_CONTROLLER = ("model", "operator", "power", "reception", "rivals")
+SPEAKS_WITH_THE_CONTROLLER = ("model", "operator", "power", "promises", "reception", "rivals")
 SEES_THE_CONTROLLER = {"loop.c", "check.c"} | {
     part + end for part in SPEAKS_WITH_THE_CONTROLLER for end in (".c", ".h")
 }
-DOORS = ("belt/belt.h", "belt/snapshot.h")
+DOORS = ("belt/belt.h", "belt/safety.h", "belt/snapshot.h")
 SEES_BOTH_SIDES = "loop.c"
 
 REFERENCE_PACKAGES = {"numpy", "scipy", "matplotlib", "reference"}
@@ -62,7 +62,8 @@ def allowed_parts() -> dict[str, set[str]]:
         if part in USES_GAINS:
             allowed[part].add("gains")
     allowed["belt"] = {*FOUNDATION, "gains", *STAGES}
-    allowed["snapshot"] = {*allowed["belt"], "belt"}
+    for part in ("snapshot", "safety"):
+        allowed[part] = {*allowed["belt"], "belt"}
     return allowed
 
 

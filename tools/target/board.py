@@ -149,8 +149,8 @@ def has_no_room(requests, build):
     return int.from_bytes(reply[:4], "little") != 0
 
 
-def replay(command, folder, requests):
-    """A server on recorded requests: its replies, as bytes."""
+def replay(command, folder, requests, ends_with=0):
+    """A server on recorded requests, to its end with that exit code: its replies, as bytes."""
     for name in ("request", "reply"):
         (folder / name).unlink(missing_ok=True)
     (folder / "request").write_bytes(requests)
@@ -159,7 +159,7 @@ def replay(command, folder, requests):
             code = board.wait(HANG)
         except subprocess.TimeoutExpired:
             raise Failure(f"{command[0]} did not end within {HANG} s") from None
-    if code != 0:
+    if code != ends_with:
         messages = (folder / "messages").read_text(encoding="utf-8")
         raise Failure(f"{' '.join(command)}: exit code {code}\n{messages}")
     return (folder / "reply").read_bytes()

@@ -7,9 +7,11 @@ pipelines, and a memory that answers in the next cycle.
 
 import re
 import struct
+import tempfile
 from pathlib import Path
 
 import board
+import counting
 import machine
 
 TARGET = "cv32e40p"
@@ -45,7 +47,18 @@ def bench():
     return program
 
 
-def count(build, folder, streams):
+def count(build, pc, streams):
+    """The steps of all streams, each with its cycles and instructions."""
+    with tempfile.TemporaryDirectory() as folder:
+        counts, replies = play(build, Path(folder), streams)
+    with tempfile.TemporaryDirectory() as folder:
+        expected = board.replay(pc.command("belt_server"), Path(folder), b"".join(streams))
+    if replies != expected:
+        raise board.Failure("the core computes other bits than the PC")
+    return list(counting.steps(streams, replies, counts))
+
+
+def play(build, folder, streams):
     """Cycles and instructions of each step, and the replies."""
     image = folder / "core.bin"
     board.run([machine.tool(build, "objcopy"), "-O", "binary", build.folder / "belt_core", image])

@@ -6,8 +6,9 @@
  *
  * A call lasts from the instruction at `begin` until one of its caller runs again, which lies in
  * caller ... caller_end; whatever runs between belongs to it, the compiler's own routines too. FILE gets
- * a line `call COUNT` for each, in order, and at the end a line `at ADDRESS COUNT` for each instruction
- * that ran in any of them.
+ * a line `call COUNT LEAPS` for each, in order, and at the end a line `at ADDRESS COUNT` for each
+ * instruction that ran in any of them. A leap goes elsewhere than to the next instruction: a branch that
+ * is taken, a call, a return, that of the function itself included.
  *
  * What is counted are blocks of instructions, when they begin: no block is left before its end, as
  * nothing but a fault or an interrupt could do that. On Arm an instruction that IT skips counts.
@@ -41,6 +42,7 @@ extern size_t qemu_plugin_tb_n_insns(const struct qemu_plugin_tb *block);
 extern struct qemu_plugin_insn *qemu_plugin_tb_get_insn(const struct qemu_plugin_tb *block,
                                                         size_t index);
 extern uint64_t qemu_plugin_insn_vaddr(const struct qemu_plugin_insn *instruction);
+extern size_t qemu_plugin_insn_size(const struct qemu_plugin_insn *instruction);
 
 extern int qemu_plugin_version;
 int qemu_plugin_version = 1;
@@ -50,6 +52,7 @@ int qemu_plugin_install(qemu_plugin_id_t id, const qemu_info_t *info, int argume
 typedef struct block {
     struct block *next;
     uint64_t runs; /**< within calls. */
+    uint64_t end;  /**< address behind it. */
     size_t count;
     uint64_t address[];
 } block_t;
@@ -62,6 +65,8 @@ typedef struct {
     block_t *blocks;
     bool is_counting;
     uint64_t count;
+    uint64_t leaps;
+    uint64_t next; /**< where it goes on without a leap. */
 } counter_t;
 
 static counter_t counter;
@@ -70,13 +75,16 @@ static void begins(unsigned cpu, void *data) {
     block_t *const block = data;
     const uint64_t address = block->address[0];
     (void)cpu;
+    counter.leaps += (address != counter.next) ? 1u : 0u;
+    counter.next = block->end;
     if (address == counter.begin) {
         counter.is_counting = true;
         counter.count = 0;
+        counter.leaps = 0;
     } else if (counter.is_counting && (address >= counter.caller) &&
                (address < counter.caller_end)) {
         counter.is_counting = false;
-        fprintf(counter.out, "call %" PRIu64 "\n", counter.count);
+        fprintf(counter.out, "call %" PRIu64 " %" PRIu64 "\n", counter.count, counter.leaps);
     }
     if (counter.is_counting) {
         counter.count += block->count;
@@ -93,9 +101,12 @@ static void seen(qemu_plugin_id_t id, struct qemu_plugin_tb *translated) {
     }
     block->next = counter.blocks;
     block->runs = 0;
+    block->end = 0;
     block->count = count;
     for (size_t i = 0; i < count; ++i) {
-        block->address[i] = qemu_plugin_insn_vaddr(qemu_plugin_tb_get_insn(translated, i));
+        const struct qemu_plugin_insn *const instruction = qemu_plugin_tb_get_insn(translated, i);
+        block->address[i] = qemu_plugin_insn_vaddr(instruction);
+        block->end = block->address[i] + qemu_plugin_insn_size(instruction);
     }
     counter.blocks = block;
     qemu_plugin_register_vcpu_tb_exec_cb(translated, begins, 0, block);

@@ -3,7 +3,9 @@
 
 import collections
 import itertools
+import tempfile
 from dataclasses import dataclass
+from pathlib import Path
 
 import board
 import machine
@@ -31,9 +33,9 @@ class Step:
         return bool(self.error_bits & LATE_BITS)
 
 
-def count(build, plugin, folder, streams, program="belt_server"):
-    """The steps of all streams, run one after the other on one board; the replies; how often each
-    instruction ran."""
+def play(build, plugin, folder, streams, program="belt_server"):
+    """What the plugin counts while all streams run one after the other on one board: instructions
+    and leaps of each call, how often each instruction ran; and the replies."""
     functions = machine.symbols(build, program)
     begin, _ = functions["belt_step"]
     caller, size = functions["server_step"]
@@ -46,10 +48,32 @@ def count(build, plugin, folder, streams, program="belt_server"):
     for line in (folder / "counts").read_text(encoding="utf-8").splitlines():
         kind, *numbers = line.split()
         if kind == "call":
-            calls.append(int(numbers[0]))
+            calls.append(tuple(map(int, numbers)))
         else:
             ran[int(numbers[0], 16)] += int(numbers[1])
-    return list(steps(streams, replies, calls)), replies, ran
+    return calls, ran, replies
+
+
+def count(build, plugin, streams):
+    """The steps of all streams."""
+    with tempfile.TemporaryDirectory() as folder:
+        calls, _, replies = play(build, plugin, Path(folder), streams)
+    return list(steps(streams, replies, [instructions for instructions, _ in calls]))
+
+
+def last_step(build, plugin, stream, without_it):
+    """Of the last step of a stream, which is also given without it: how often each instruction ran,
+    and the leaps."""
+    played = []
+    for part in (stream, without_it):
+        with tempfile.TemporaryDirectory() as folder:
+            played.append(play(build, plugin, Path(folder), [part]))
+    (calls, ran, _), (_, ran_before, _) = played
+    ran.subtract(ran_before)
+    instructions, leaps = calls[-1]
+    if sum(ran.values()) != instructions:
+        raise board.Failure("the last step of a stream is not the one that was counted")
+    return ran, leaps
 
 
 def steps(streams, replies, calls):

@@ -11,6 +11,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT), str(ROOT / "tools" / "target")]
 import board  # noqa: E402
+import counting  # noqa: E402
 import inputs  # noqa: E402
 
 from reference.line import Law, Line  # noqa: E402
@@ -44,7 +45,7 @@ def instructions(pc, node_count):
     """The greatest count of a step in the run `paper`, but for the first."""
     build = board.build("cortex-m4f", defines=[("BELT_NODE_CAPACITY", str(node_count))])
     stream = inputs.record(pc, "paper", "--set", f"controller.node_count={node_count}")
-    steps = inputs.steps_of(build, pc.folder / "count_plugin.so", [stream])
+    steps = counting.count(build, pc.folder / "count_plugin.so", [stream])
     return max(step.instructions for step in steps if step.is_good_automatic())
 
 

@@ -37,6 +37,7 @@ class Block:
     instructions: list = field(default_factory=list)
     calls: list = field(default_factory=list)  # names, in order
     follows: set = field(default_factory=set)  # starts of the blocks that may run next
+    falls_to: int | None = None  # the one of them that lies behind it
     leaves: bool = False  # whether the function may end with it
 
 
@@ -118,6 +119,7 @@ def blocks_of(code, starts, data):
         if block is None or instruction.address in entries:
             if behind is not None:
                 behind.follows.add(instruction.address)
+                behind.falls_to = instruction.address
             block = Block(instruction.address)
             blocks[instruction.address] = block
         behind = block

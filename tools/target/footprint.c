@@ -22,7 +22,9 @@ belt_status_t footprint(const belt_config_t *config, const belt_measurement_t *m
     if (status == BELT_OK) {
         status = belt_set_manual_flux(&footprint_controller, config->nominal_flux_max);
     }
-    return (status == BELT_OK) ? belt_step(&footprint_controller, measurement, command) : status;
+    return ((status == BELT_OK) && belt_is_running(&footprint_controller))
+               ? belt_step(&footprint_controller, measurement, command)
+               : status;
 }
 
 /* Nothing is known of what comes in. */

@@ -7,7 +7,6 @@ import tempfile
 from pathlib import Path
 
 import board
-import counting
 import stimuli
 
 MODES = ["law", "full", "profile", "late"]
@@ -115,26 +114,3 @@ def kept(target, node_count, mode):
     """The worst input that an earlier search has found, if it was kept."""
     path = KEPT / kept_name(target, node_count, mode)
     return [path.read_bytes()] if path.is_file() else []
-
-
-class Inputs:
-    """All stimuli of a node_count and a mode, made once: the search goes on one target for all."""
-
-    def __init__(self, pc, effort):
-        self.pc = pc
-        self.effort = effort
-        self.made = {}
-
-    def of(self, count_steps, target, node_count, mode):
-        key = node_count, mode
-        if key not in self.made:
-            recorded = recordings(self.pc, node_count, mode)
-            self.made[key] = recorded + search(count_steps, mode, node_count, self.effort)
-        return self.made[key] + kept(target, node_count, mode)
-
-
-def steps_of(build, plugin, streams):
-    """The counted steps of stimuli on a target."""
-    with tempfile.TemporaryDirectory() as folder:
-        found, _, _ = counting.count(build, plugin, Path(folder), streams)
-    return found

@@ -1,22 +1,23 @@
 # SPDX-License-Identifier: MIT
-"""A structural upper estimate of the instructions of belt_step on a Cortex-M with FPU: the longest
-path through the binary.
+"""A structural upper estimate of the instructions of belt_step on a Cortex-M with FPU, and of their
+cycles by the manual's counts (cycles.py): the longest path through the binary.
 
 For each function the greatest sum of instructions over all ways through its flow graph is found by
 linear programming, callees counting with their own greatest sum. What the graph cannot tell stands
-in BOUNDS below: how often each loop goes round. It holds without interrupts; it counts
-instructions, not cycles.
+in BOUNDS below: how often each loop goes round. It holds without interrupts.
 
     build/venv/bin/python tools/target/longest_path.py FOLDER_OF_A_BUILD NODE_COUNT
 
-prints a JSON object with the path of each mode of tools/cost.
+prints a JSON object with the paths of each mode of tools/cost: [instructions, cycles].
 """
 
+import dataclasses
 import json
 import sys
 from pathlib import Path
 
 import board
+import cycles
 import flow
 import machine
 import numpy as np
@@ -59,10 +60,12 @@ SEALED = "offsetof(belt_controller_t, line) + offsetof(belt_line_t, loss)"
 
 
 class Estimate:
-    """The longest paths of one program, in one mode."""
+    """The longest paths of one program, in one mode: the sum of what each instruction weighs, and
+    of `leap` for each branch that is taken, each call and each return."""
 
-    def __init__(self, program, facts, never):
+    def __init__(self, program, facts, never, weigh, leap):
         self.program, self.facts, self.never = program, facts, never
+        self.weigh, self.leap = weigh, leap
         self.known = {}
 
     def of(self, function):
@@ -78,13 +81,7 @@ class Estimate:
         )
         open_blocks = {start for start in blocks if not self.is_never(blocks[start], places)}
         blocks = {
-            start: flow.Block(
-                start,
-                block.instructions,
-                block.calls,
-                block.follows & open_blocks,
-                block.leaves,
-            )
+            start: dataclasses.replace(block, follows=block.follows & open_blocks)
             for start, block in blocks.items()
             if start in open_blocks
         }
@@ -102,12 +99,19 @@ class Estimate:
             for instruction in block.instructions
         )
 
+    def cost(self, block):
+        """What a block weighs, with the functions that it calls."""
+        own = sum(self.weigh(instruction) for instruction in block.instructions)
+        return own + sum(self.leap + self.of(name) for name in block.calls)
+
+    def way_out(self, block, follower):
+        """What it takes to go on to the next block, or to return: None."""
+        return 0 if follower is not None and follower == block.falls_to else self.leap
+
     def longest(self, function, blocks, first, inside, edges, places):
         order = sorted(edges) + [(start, None) for start in sorted(inside) if blocks[start].leaves]
         column = {edge: index for index, edge in enumerate(order)}
-        cost = {start: len(blocks[start].instructions) for start in inside}
-        for start in inside:
-            cost[start] += sum(self.of(name) for name in blocks[start].calls)
+        cost = {start: self.cost(blocks[start]) for start in inside}
         equal, equal_to = [], []
         for start in sorted(inside):
             row = np.zeros(len(order))
@@ -134,7 +138,7 @@ class Estimate:
         for row, total in in_all.values():
             below.append(row)
             limits.append(float(total))
-        gain = np.array([-float(cost[a]) for a, _ in order])
+        gain = np.array([-float(cost[a] + self.way_out(blocks[a], b)) for a, b in order])
         found = linprog(
             gain,
             A_ub=np.array(below) if below else None,
@@ -201,11 +205,14 @@ def main(argv):
     build = board.Build("cortex-m4f", Path(argv[1]))
     program = flow.Program(build, PROGRAM)
     facts = {"n": int(argv[2]), "size": sealed_size(build)}
+    measures = [(lambda _: 1, 0), (cycles.weigher(program.code), cycles.REFILL)]
     paths = {}
     for mode in MODES:
         facts["periods"] = 100 if mode == "late" else 1
         facts["places"] = 0 if mode == "law" else facts["n"] + 1
-        paths[mode] = Estimate(program, facts, NEVER[mode]).of(ROOT)
+        paths[mode] = [
+            Estimate(program, facts, NEVER[mode], weigh, leap).of(ROOT) for weigh, leap in measures
+        ]
     print(json.dumps(paths))
 
 

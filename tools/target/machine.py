@@ -29,22 +29,29 @@ def symbols(build, program):
 # --- memory ------------------------------------------------------------------------------------
 
 SECTION = re.compile(
-    r"^ (\.[\w.$]+)\s+0x[0-9a-f]+\s+0x([0-9a-f]+)\s+(\S*libbelt\.a\(\S+\))", re.MULTILINE
+    r"^ (\.[\w.$]+)\s+0x[0-9a-f]+\s+0x([0-9a-f]+)\s+\S*libbelt\.a\((\w+)\.c\S*\)", re.MULTILINE
 )
 
 
-def library_sections(build, program="belt_footprint"):
-    """Bytes of .text, .rodata, .data and .bss that the linker took from libbelt.a, by its map."""
+def library_objects(build, program="belt_footprint"):
+    """Bytes of .text, .rodata, .data and .bss of each object that the linker took from libbelt.a,
+    by its map."""
     text = (build.folder / f"{program}.map").read_text(encoding="utf-8")
     text = text.partition("Linker script and memory map")[2]
-    sizes = dict.fromkeys(("text", "rodata", "data", "bss"), 0)
-    for section, size, _ in SECTION.findall(text):
+    objects = {}
+    for section, size, name in SECTION.findall(text):
         kind = section.split(".")[1]
         if kind in ("srodata", "sdata", "sbss"):
             kind = kind[1:]
+        sizes = objects.setdefault(name, dict.fromkeys(("text", "rodata", "data", "bss"), 0))
         if kind in sizes:
             sizes[kind] += int(size, 16)
-    return sizes
+    return objects
+
+
+def flash_of(sizes):
+    """Bytes that an object takes of the flash."""
+    return sizes["text"] + sizes["rodata"] + sizes["data"]
 
 
 # --- instructions ------------------------------------------------------------------------------
