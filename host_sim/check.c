@@ -3,6 +3,7 @@
 
 #include "equilibrium.h"
 #include "model.h"
+#include "promises.h"
 
 bool check_report(const scenario_t *scenario, FILE *out) {
     belt_config_t config;
@@ -44,5 +45,6 @@ bool check_report(const scenario_t *scenario, FILE *out) {
                 "cannot be held\n",
                 scenario->controller.inlet_flux_max);
     }
+    promises_report(scenario, &config, out);
     return true;
 }

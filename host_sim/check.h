@@ -11,7 +11,8 @@
 #include "scenario.h"
 
 /** Prints every rule of the configuration with its value, limit and margin, the range of the dead
- * time and the equilibrium. Returns true when every rule holds. */
+ * time, the equilibrium and, as advice, what can be promised of the inlet flux. Returns true when every
+ * rule holds. */
 bool check_report(const scenario_t *scenario, FILE *out);
 
 #endif

@@ -126,10 +126,11 @@ def sharper(line: Line, law: Law, state: State) -> Promise:
         p2_xi(y) = p2(y + xi, 0) where that material is on the belt now, else M
         M = P*s_high*max(Q*/(alpha*service_time), u(Q*, p1(D, 0)))
         E(r) = exp(-P*s_low * integral of C over [0, r]) >= K(D, D)/K(D, D - r)
-        ratio >= lambda(p3(D))/lambda(p3(y)): 1 while the level never falls, else s_high/s_low
+        ratio = 1 + (tau/congestion_scale)*fall/s_low >= lambda(p3(D))/lambda(p3(y))
 
     s_low and s_high: 1 + tau*Q/congestion_scale at the lowest and highest level in the window, on
-    the belt (p1(x, 0)) and on the way to Q*. xi is how far the belt has moved.
+    the belt (p1(x, 0)) and on the way to Q*; fall: by how much a later one of these levels lies
+    below an earlier one, 0 while the level only rises. xi is how far the belt has moved.
     """
     active = nominal_law(line, law)
     result = predicted(line, law, state)
@@ -140,8 +141,8 @@ def sharper(line: Line, law: Law, state: State) -> Promise:
     crowded = 1.0 + line.speed_window / line.congestion_scale * np.array(
         [levels.min(), levels.max()]
     )
-    rising = bool(np.all(np.diff(levels) >= -1e-12 * line.level_capacity))
-    ratio = 1.0 if rising else crowded[1] / crowded[0]
+    fall = float(np.max(np.maximum.accumulate(levels) - levels))
+    ratio = 1.0 + line.speed_window / line.congestion_scale * fall / crowded[0]
     fluxes = active.hold_flux, float(nominal_flux(active, last_level))
     density_fed = line.processing_time * crowded[1] * max(fluxes)
     carried = rework_ahead(line, state.positions, result.outlet, density_fed, crowded[0])
@@ -164,6 +165,10 @@ def rework_ahead(line: Line, positions, outlet, density_fed: float, crowding: fl
 
 
 def starts_compatibly(line: Line, law: Law, state: State) -> float:
-    """rho(D, 0) minus what (nu0) asks for [parts/m]: 0 when no front enters the belt."""
-    system = conveyor(line, law)
-    return compatibility(system, state.positions, state.densities, state.record)
+    """rho(D, 0) minus what (nu0) asks for [parts/m]: 0 when no front enters the belt.
+
+    The inlet stands twice among the nodes, as the two sides of the front: it has no width.
+    """
+    positions = np.append(state.positions, state.positions[-1])
+    densities = np.append(state.densities, state.densities[-1])
+    return compatibility(conveyor(line, law), positions, densities, state.record)

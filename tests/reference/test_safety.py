@@ -176,3 +176,26 @@ def test_compatible_belt_lets_no_front_in():
     """(nu0) of the paper's own start is off by all that U(0) = 1.98 feeds."""
     mismatch = starts_compatibly(Line(), Law(), State.held(Line(), 0.0))
     assert mismatch == pytest.approx(-1.978 * 0.25, abs=1e-3)
+
+
+def test_jump_is_of_second_order_in_the_nodes():
+    """A front of no width: smeared over the last strip it would be of first order."""
+    line = Line(loss_rate=(1.1, 0.1, 1.0, 0.5))
+    jumps = [starts_compatibly(line, Law(), State.held(line, 0.25, 0.2, n)) for n in (25, 50, 100)]
+    # 4 of the second order, 2 of the first
+    assert (jumps[0] - jumps[1]) / (jumps[1] - jumps[2]) == pytest.approx(4.0, abs=0.2)
+
+
+def test_a_falling_level_weighs_by_its_deepest_fall():
+    """`sharper` goes over from a level that only rises to one that falls without a step."""
+    line = Line(rework_rate=0.3)
+    levels = np.array([0.25, 0.25 + 1e-9, 0.25 - 1e-9])
+    lefts = [sharper(line, Law(), State.held(line, level, 0.3)).left for level in levels]
+    assert lefts == pytest.approx([lefts[0]] * 3, rel=1e-7)
+    falling = sharper(line, Law(), State.held(line, 0.4))
+    lowest = predicted(line, Law(), State.held(line, 0.4)).state[0].min()
+    fed = 0.25 * (1.0 + 0.2 * 0.4) * nominal_law(line, Law()).flux(lowest)
+    rate = 0.25 * (1.0 + 0.2 * lowest)
+    integral = 2.0 / rate - (1.0 - np.exp(-rate * 2.0)) / rate**2
+    ratio = 1.0 + 0.2 * (0.4 - lowest) / (1.0 + 0.2 * lowest)
+    assert falling.left == pytest.approx(0.3 * fed * ratio * integral, rel=1e-4)
