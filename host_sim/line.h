@@ -30,7 +30,7 @@ typedef struct {
     double level_capacity;   /**< Qmax: parts the buffer holds, > 0. */
     double
         rework_rate; /**< A: density put back at x for each unit leaving, A (D - x) [1/(m s)], >= 0. */
-    profile_t loss_rate; /**< C(x): share of the density lost in unit time [1/s], >= 0. */
+    profile_t loss_rate; /**< C(x): share of the density lost in unit time, below 0 grown [1/s]. */
 } line_t;
 
 /** Value of a profile at `place` in [0, length], linear between its equally spaced values. */

@@ -69,8 +69,8 @@ static double integral_to(const double *integral, double place) {
 /** Greatest difference between a whole cell's density and the plant's mean over the same stretch:
  * means, because a cell knows no more of what lies in it [parts/m]. */
 static double observer_error(loop_t *loop) {
-    const belt_observer_t *observer = &loop->controller.observer;
-    const belt_line_t *line = &loop->controller.line;
+    const belt_observer_t *observer = &loop->controller.model.observer;
+    const belt_line_t *line = &loop->controller.model.line;
     const size_t count = (size_t)line->node_count * PLACES_PER_CELL + 1;
     double *const integral = loop->scratch;
     plant_profile(&loop->plant, integral, count);
@@ -105,15 +105,15 @@ static loop_row_t observe(loop_t *loop, size_t k, bool wants_observer) {
     row.congestion = plant->congestion;
     row.transport_speed = plant_speed(plant);
     row.outlet_flux = plant_outlet_flux(plant);
-    row.predicted_level = (double)prediction->inlet_level;
-    row.arrival_time = row.time + (double)prediction->inlet_arrival;
+    row.predicted_level = (double)prediction->inlet.level;
+    row.arrival_time = row.time + (double)prediction->inlet.arrival;
     row.survival = (double)prediction->inlet_survival;
     row.level_measured = level->is_present ? (double)reception_number(level, 0) : (double)NAN;
     row.applied_flux = plant->applied_flux;
-    row.disturbance = (double)controller->estimator.disturbance;
+    row.disturbance = (double)controller->model.estimator.disturbance;
     row.mode = (double)loop->command.mode;
     row.error_bits = (double)loop->command.error_bits;
-    row.level_estimate = (double)controller->present.level;
+    row.level_estimate = (double)controller->model.present.level;
     row.level_quality = (double)controller->gate.level_quality;
     row.observer_error = wants_observer ? observer_error(loop) : 0.0;
     return row;

@@ -31,7 +31,7 @@ double rivals_flux(rivals_t *self, const belt_controller_t *controller, const be
     switch (self->scenario->controller.law) {
         case LAW_UNCOMPENSATED:
             return (double)belt_command_limit(
-                belt_nominal_law_flux(&controller->law, controller->present.level), limit);
+                belt_nominal_law_flux(&controller->law, controller->model.present.level), limit);
         case LAW_OPEN_LOOP:
             return (double)belt_command_limit(model_real(open_loop_flux(self, level_setpoint)),
                                               limit);

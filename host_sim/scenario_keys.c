@@ -46,8 +46,7 @@ static const scenario_range_t SAMPLES = {1.0, 65535.0, true};
         NUMBER(section, "service_time", line.service_time, fallback("1"), POSITIVE),               \
         NUMBER(section, "level_capacity", line.level_capacity, fallback("1"), POSITIVE),           \
         NUMBER(section, "rework_rate", line.rework_rate, fallback("0.1"), NOT_NEGATIVE),           \
-        LIST(section, "loss_rate", line.loss_rate.value, line.loss_rate.count, fallback("1"),      \
-             NOT_NEGATIVE)
+        LIST(section, "loss_rate", line.loss_rate.value, line.loss_rate.count, fallback("1"), ANY)
 #define STATED(text) text
 #define LEFT_OUT(text) NULL
 

@@ -25,7 +25,7 @@ class Line:
     belt_length [m], processing_time [s/m], speed_window [s], congestion_scale [parts s],
     connectivity [-], service_rate_max [parts/s], service_time [s], level_capacity [parts],
     rework_rate [1/(m s)], loss_rate [1/s]: values equally spaced from outlet to inlet, ends
-    included, linear between; one value is a uniform loss.
+    included, linear between; one value is a uniform loss; below 0 density grows by itself.
 
     congestion_scale and service_time are 1 in the paper and invisible in its formulas.
     Raises ValueError for anything that is not finite or out of range.
@@ -45,9 +45,11 @@ class Line:
     def __post_init__(self) -> None:
         for name, value in vars(self).items():
             values = value if name == "loss_rate" else (value,)
-            zero_allowed = name in ("loss_rate", "rework_rate")
             for number in values:
-                if not isfinite(number) or number < 0 or (number == 0 and not zero_allowed):
+                in_range = (
+                    number > 0 or name == "loss_rate" or (number == 0 and name == "rework_rate")
+                )
+                if not isfinite(number) or not in_range:
                     raise ValueError(f"{name} = {number} is out of range")
         if len(self.loss_rate) == 0:
             raise ValueError("loss_rate needs at least one value")

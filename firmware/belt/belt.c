@@ -18,20 +18,26 @@ BELT_STATIC_ASSERT(configuration_stands_before_all_else,
     (BELT_ERROR_PERIODS_LATE | BELT_ERROR_PERIODS_LOST | BELT_ERROR_PERIOD_REPEATED |              \
      BELT_ERROR_HISTORY_SHORT)
 
+/** Sum of what lies from one offset in the controller to another. */
+static uint32_t sum_between(const belt_controller_t *controller, size_t from, size_t end) {
+    return belt_integrity_sum((const unsigned char *)controller + from, end - from);
+}
+
 /** Sum of all that is derived: counts, limits and gains, the history's constants. Of the line its
- * tables of losses are left out: a wrong loss is a wrong model and nothing worse. */
+ * tables are left out: a wrong loss is a wrong model and nothing worse. */
 static uint32_t sum_of_derived(const belt_controller_t *controller) {
-    const unsigned char *bytes = (const unsigned char *)controller;
-    const size_t from = offsetof(belt_controller_t, law);
-    const size_t end = offsetof(belt_controller_t, line) + offsetof(belt_line_t, loss);
-    return belt_integrity_sum(bytes + from, end - from) +
-           belt_integrity_sum(&controller->history, offsetof(belt_level_history_t, window_sum));
+    return sum_between(controller, offsetof(belt_controller_t, law),
+                       offsetof(belt_controller_t, model) + offsetof(belt_model_t, line) +
+                           offsetof(belt_line_t, loss)) +
+           sum_between(controller,
+                       offsetof(belt_controller_t, model) + offsetof(belt_model_t, estimator_gains),
+                       offsetof(belt_controller_t, model) + offsetof(belt_model_t, history) +
+                           offsetof(belt_level_history_t, window_sum));
 }
 
 static uint32_t sum_of_command(const belt_controller_t *controller) {
-    const unsigned char *bytes = (const unsigned char *)controller;
-    const size_t from = offsetof(belt_controller_t, supervisor);
-    return belt_integrity_sum(bytes + from, offsetof(belt_controller_t, command_seal) - from);
+    return sum_between(controller, offsetof(belt_controller_t, supervisor),
+                       offsetof(belt_controller_t, command_seal));
 }
 
 static uint32_t sum_of_config(const belt_controller_t *controller) {
@@ -40,15 +46,6 @@ static uint32_t sum_of_config(const belt_controller_t *controller) {
 
 static void close_command(belt_controller_t *controller) {
     controller->command_seal = sum_of_command(controller);
-}
-
-static void derive(belt_controller_t *controller) {
-    const belt_config_t *config = &controller->config;
-    belt_nominal_law_init(&controller->law, config);
-    belt_limits_init(&controller->limits, config);
-    belt_estimator_gains_init(&controller->estimator_gains, config);
-    controller->prediction_kind = config->prediction;
-    belt_line_init(&controller->line, config);
 }
 
 belt_status_t belt_init(belt_controller_t *controller, const belt_config_t *config) {
@@ -65,9 +62,10 @@ belt_status_t belt_init(belt_controller_t *controller, const belt_config_t *conf
     controller->config_seal = sum_of_config(controller);
     const size_t behind = offsetof(belt_controller_t, law);
     memset((unsigned char *)controller + behind, 0, sizeof *controller - behind);
-    derive(controller);
-    belt_level_history_init(&controller->history, config);
-    belt_observer_init(&controller->observer);
+    config = &controller->config;
+    belt_nominal_law_init(&controller->law, config);
+    belt_limits_init(&controller->limits, config);
+    belt_model_init(&controller->model, config);
     belt_measurement_init(&controller->gate, &controller->limits);
     belt_supervisor_init(&controller->supervisor);
     controller->command.mode = BELT_MODE_OFF;
@@ -84,13 +82,13 @@ static bool is_ready(const belt_controller_t *controller) {
 
 /** True while every count, index and limit that the step relies on is as it was written. */
 static bool is_intact(const belt_controller_t *controller) {
-    const belt_observer_t *observer = &controller->observer;
+    const belt_observer_t *observer = &controller->model.observer;
     return (controller->seal == sum_of_derived(controller)) &&
            (controller->command_seal == sum_of_command(controller)) &&
            ((uint32_t)controller->command.mode < BELT_MODE_COUNT) &&
-           (controller->history.newest < controller->history.length) &&
-           (observer->outlet < controller->line.cell_slots) && (observer->gone >= BELT_REAL(0)) &&
-           (observer->gone < BELT_REAL(1));
+           (controller->model.history.newest < controller->model.history.length) &&
+           (observer->outlet < controller->model.line.cell_slots) &&
+           (observer->gone >= BELT_REAL(0)) && (observer->gone < BELT_REAL(1));
 }
 
 bool belt_is_running(const belt_controller_t *controller) {
@@ -98,113 +96,17 @@ bool belt_is_running(const belt_controller_t *controller) {
            (controller->config_seal == sum_of_config(controller)) && is_intact(controller);
 }
 
-/** What the march starts from. */
-static void look(belt_controller_t *controller, belt_real_t level) {
-    belt_present_t *present = &controller->present;
-    present->level = level;
-    present->congestion = belt_level_history_congestion(&controller->history);
-    present->disturbance = controller->estimator.disturbance;
-    present->disturbance_flux = present->disturbance / controller->line.connectivity;
-}
-
 /** The first level, and what is said to lie on the belt. */
 static void begin(belt_controller_t *controller, const belt_measurement_t *measurement) {
-    const belt_real_t level = controller->trusted.level;
-    belt_level_history_begin(&controller->history, level);
+    belt_model_begin(&controller->model, &controller->trusted, measurement->density);
     controller->seal = sum_of_derived(controller);
-    belt_estimator_begin(&controller->estimator, level);
-    look(controller, level);
-    if (controller->trusted.has_density) {
-        belt_observer_assume(&controller->observer, &controller->line, measurement->density);
-    }
     controller->state = STATE_RUNNING;
-}
-
-/** The belt over some periods: what was fed, how far it moved, what left. Returns the model's outlet
- * flux, its mean [parts/s]. */
-static belt_real_t move_belt(belt_controller_t *controller, uint32_t periods) {
-    const belt_line_t *line = &controller->line;
-    const belt_level_history_t *history = &controller->history;
-    const belt_trusted_t *trusted = &controller->trusted;
-    const belt_present_t *present = &controller->present;
-    /* The speed in the middle, from the congestion there. */
-    const belt_real_t count = (belt_real_t)periods;
-    const belt_real_t duration = count * history->period;
-    const belt_real_t age = history->window - BELT_REAL(0.25) * count;
-    const belt_real_t tail =
-        belt_level_history_at(history, belt_within(BELT_REAL(0), age, history->window));
-    const belt_real_t slower =
-        line->slowness_slope * BELT_HALF * duration * (present->level - tail);
-    const belt_real_t slowness = belt_line_slowness(line, present->congestion) + slower;
-    const belt_real_t travel = duration / (slowness * line->spacing);
-    belt_passage_t passage;
-    passage.duration = duration;
-    passage.travel = belt_within(BELT_TRAVEL_MIN, travel, BELT_REAL(1));
-    passage.fed_density = trusted->applied_flux * slowness;
-    passage.left_is_measured = trusted->has_outlet_flux;
-    passage.left_density = trusted->outlet_flux * (slowness + slower);
-    belt_observer_advance(&controller->observer, line, &passage);
-    return controller->observer.modelled_density / slowness;
-}
-
-/** The level at the end of some periods, the last of `passed` out of all to be made up for. */
-static belt_real_t next_level(belt_controller_t *controller, belt_real_t outlet_flux,
-                              uint32_t periods, uint32_t passed) {
-    const belt_trusted_t *trusted = &controller->trusted;
-    const bool is_now = passed >= trusted->periods;
-    if (controller->estimator_gains.is_on != 0u) {
-        belt_estimator_expect(&controller->estimator, &controller->line, outlet_flux,
-                              (belt_real_t)periods * controller->history.period);
-        if (is_now && trusted->level_is_new) {
-            belt_estimator_correct(&controller->estimator, &controller->estimator_gains,
-                                   &controller->line, trusted->level);
-        }
-        return controller->estimator.level;
-    }
-    const belt_real_t last = controller->present.level;
-    const belt_real_t share =
-        (belt_real_t)periods / (belt_real_t)(trusted->periods - passed + periods);
-    return is_now ? trusted->level : last + share * (trusted->level - last);
-}
-
-/** Levels enter the history, on a line from the last one; out of it comes the congestion. */
-static void record_level(belt_controller_t *controller, belt_real_t level, uint32_t periods) {
-    const belt_real_t from = belt_line_level(&controller->line, controller->present.level);
-    const belt_real_t to = belt_line_level(&controller->line, level);
-    const belt_real_t rise = (to - from) / (belt_real_t)periods;
-    for (uint32_t i = 1; i < periods; ++i) {
-        const belt_real_t between = from + (belt_real_t)i * rise;
-        belt_level_history_push(&controller->history, belt_line_level(&controller->line, between));
-    }
-    belt_level_history_push(&controller->history, to);
-    look(controller, to);
-}
-
-/** Belt, level and history follow the line over all periods since the last step: one on time, more
- * after late or lost steps, then in stretches in which the belt moves at most a node spacing. */
-static void follow_line(belt_controller_t *controller, const belt_measurement_t *measurement) {
-    const belt_trusted_t *trusted = &controller->trusted;
-    const uint32_t longest = controller->limits.stretch_periods;
-    uint32_t passed = 0;
-    /* At most BELT_CATCH_UP_PERIODS turns: each takes one period or more. */
-    while (passed < trusted->periods) {
-        const uint32_t rest = trusted->periods - passed;
-        const uint32_t periods = (rest < longest) ? rest : longest;
-        const belt_real_t outlet_flux = move_belt(controller, periods);
-        passed += periods;
-        record_level(controller, next_level(controller, outlet_flux, periods, passed), periods);
-    }
-    if (trusted->has_density) {
-        belt_observer_assume(&controller->observer, &controller->line, measurement->density);
-    }
 }
 
 /** What the law asks to be fed [parts/s]. */
 static belt_real_t law_flux(belt_controller_t *controller) {
-    belt_predictor_march(&controller->prediction, &controller->line, &controller->history,
-                         &controller->observer, &controller->present, controller->prediction_kind);
-    return belt_command_solve(&controller->prediction, &controller->line, &controller->history,
-                              &controller->law, &controller->present);
+    belt_predictor_march(&controller->prediction, &controller->model);
+    return belt_command_solve(&controller->prediction, &controller->model, &controller->law);
 }
 
 static belt_status_t status_of(uint32_t error_bits) {
@@ -238,10 +140,11 @@ static belt_status_t conclude(belt_controller_t *controller, belt_command_t *com
 /** Error bits that no input caused: an estimate at its limit, a history not yet whole. */
 static void note_state(belt_controller_t *controller) {
     belt_trusted_t *trusted = &controller->trusted;
-    if (belt_estimator_is_at_limit(&controller->estimator, &controller->estimator_gains)) {
+    if (belt_estimator_is_at_limit(&controller->model.estimator,
+                                   &controller->model.estimator_gains)) {
         trusted->error_bits |= BELT_ERROR_DISTURBANCE_LIMIT;
     }
-    const uint32_t length = controller->history.length;
+    const uint32_t length = controller->model.history.length;
     const uint32_t missing =
         (controller->short_history < length) ? controller->short_history : length;
     if (missing > 0u) {
@@ -283,11 +186,12 @@ belt_status_t belt_step(belt_controller_t *controller, const belt_measurement_t 
     if (!may_step(controller, measurement, command, &status)) {
         return feed_nothing(command, status);
     }
-    controller->trusted =
-        belt_measurement_gate(&controller->gate, measurement, controller->command.inlet_flux,
-                              &controller->line, &controller->limits);
+    belt_measurement_gate(&controller->trusted, &controller->gate, measurement,
+                          controller->command.inlet_flux, &controller->model.line,
+                          &controller->limits);
     if (controller->state == STATE_RUNNING) {
-        follow_line(controller, measurement);
+        belt_model_follow(&controller->model, &controller->trusted, measurement->density,
+                          controller->limits.stretch_periods);
     } else if (controller->trusted.level_is_new) {
         begin(controller, measurement);
     } else {

@@ -16,15 +16,12 @@
 
 #include "command.h"
 #include "config.h"
-#include "estimator.h"
 #include "gains.h"
 #include "integrity.h"
-#include "level_history.h"
 #include "limits.h"
-#include "line_model.h"
 #include "measurement.h"
+#include "model.h"
 #include "nominal_law.h"
-#include "observer.h"
 #include "predictor.h"
 #include "supervisor.h"
 #include "types.h"
@@ -35,19 +32,13 @@ typedef struct {
     belt_config_t config; /**< as checked; set_setpoint changes level_setpoint. */
     uint32_t config_seal; /**< sum of it. */
 
-    /* Derived from it; under the seal. */
-    belt_nominal_law_t law;                 /**< u(Q*, .) for the present set-point. */
-    belt_limits_t limits;                   /**< of gate and supervisor. */
-    belt_estimator_gains_t estimator_gains; /**< and whether there is one. */
-    belt_prediction_kind_t prediction_kind;
-    belt_line_t line; /**< the line in the units of the march. */
+    /* Derived from it; under the seal, with the constants of the model. */
+    belt_nominal_law_t law; /**< u(Q*, .) for the present set-point. */
+    belt_limits_t limits;   /**< of gate and supervisor. */
+    belt_model_t model;     /**< the line: its constants, then its state, period by period. */
 
     /* State, period by period. */
-    belt_level_history_t history; /**< levels of the last speed_window. */
-    belt_observer_t observer;     /**< density along the belt. */
-    belt_estimator_t estimator;   /**< level and disturbance. */
-    belt_gate_t gate;             /**< what the gate remembers. */
-    belt_present_t present;       /**< Q(t), R(t), disturbance. */
+    belt_gate_t gate;       /**< what the gate remembers. */
     uint32_t short_history; /**< periods until the history is whole again, after a long stop. */
     uint32_t state;         /**< whether init has passed and a level has been trusted. */
 

@@ -5,9 +5,12 @@ belt_real_t belt_command_limit(belt_real_t flux, belt_real_t limit) {
     return belt_within(BELT_REAL(0), flux, limit);
 }
 
-belt_real_t belt_command_solve(const belt_prediction_t *prediction, const belt_line_t *line,
-                               const belt_level_history_t *history, const belt_nominal_law_t *law,
-                               const belt_present_t *present) {
+belt_real_t belt_command_solve(const belt_prediction_t *prediction, const belt_model_t *model,
+                               const belt_nominal_law_t *law) {
+    const belt_line_t *line = &model->line;
+    const belt_level_history_t *history = &model->history;
+    const belt_present_t *present = &model->present;
+    const belt_front_t *inlet = &prediction->inlet;
     /* Feeding: the middle of the hold. */
     const belt_real_t half_hold = BELT_HALF * history->period;
     const belt_real_t present_tail = belt_level_history_at(history, history->window);
@@ -16,15 +19,12 @@ belt_real_t belt_command_solve(const belt_prediction_t *prediction, const belt_l
 
     /* Arrival: half a hold of travel behind the last material fed, at the pace of then. */
     const belt_real_t travel = half_hold / belt_line_slowness(line, present->congestion);
-    const belt_real_t gap = travel * prediction->inlet_slowness;
+    const belt_real_t gap = travel * belt_line_slowness(line, inlet->congestion);
     const belt_real_t inflow =
-        line->connectivity * belt_command_wanted(law, present, prediction->inlet_level) +
-        present->disturbance;
-    const belt_real_t level =
-        prediction->inlet_level + gap * (inflow - belt_line_service(line, prediction->inlet_level));
+        line->connectivity * belt_command_wanted(law, present, inlet->level) + present->disturbance;
+    const belt_real_t level = inlet->level + gap * (inflow - belt_line_service(line, inlet->level));
     const belt_real_t arriving =
-        prediction->inlet_slowness +
-        line->slowness_slope * gap * (prediction->inlet_level - prediction->inlet_tail);
+        belt_line_slowness(line, inlet->congestion + gap * (inlet->level - inlet->tail));
     const belt_real_t survival =
         prediction->inlet_survival * (BELT_REAL(1) - line->loss_mean * (gap - half_hold));
 

@@ -39,8 +39,7 @@ static inline belt_real_t belt_command_wanted(const belt_nominal_law_t *law,
 }
 
 /** The inlet flux that lets the nominal law act at the outlet (MF1), before limits [parts/s]. */
-belt_real_t belt_command_solve(const belt_prediction_t *prediction, const belt_line_t *line,
-                               const belt_level_history_t *history, const belt_nominal_law_t *law,
-                               const belt_present_t *present);
+belt_real_t belt_command_solve(const belt_prediction_t *prediction, const belt_model_t *model,
+                               const belt_nominal_law_t *law);
 
 #endif

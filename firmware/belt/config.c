@@ -2,37 +2,54 @@
 #include "config.h"
 
 #include "exponential.h"
+#include "line_laws.h"
 
 static belt_real_t least(belt_real_t a, belt_real_t b) {
     return (a < b) ? a : b;
 }
 
-/** The greatest loss rate, or the first value that is negative or no number. */
+static belt_real_t size_of(belt_real_t value) {
+    return (value < BELT_REAL(0)) ? -value : value;
+}
+
+/** The loss rate that is greatest in size, or the first that is no number. */
 static belt_real_t worst_loss_rate(const belt_config_t *config) {
     belt_real_t worst = BELT_REAL(0);
     for (uint16_t i = 0; (i < config->loss_count) && (i < BELT_LOSS_CAPACITY); ++i) {
         const belt_real_t rate = config->loss_rate[i];
-        if (!(rate >= BELT_REAL(0))) {
-            return rate;
+        if (!(size_of(rate) <= size_of(worst))) {
+            worst = rate;
         }
-        worst = (rate > worst) ? rate : worst;
+        if (!(rate <= BELT_REAL_MAX)) {
+            break;
+        }
     }
     return worst;
 }
 
-belt_real_t belt_config_loss_mean(const belt_config_t *config) {
+/** Mean along the belt of the loss rate, or of its size, by the trapezoids of the table. */
+static belt_real_t mean_loss(const belt_config_t *config, bool of_size) {
+    const belt_real_t *rate = config->loss_rate;
     if (config->loss_count <= 1) {
-        return config->loss_rate[0];
+        return of_size ? size_of(rate[0]) : rate[0];
     }
     belt_real_t sum = BELT_REAL(0);
     for (uint16_t i = 0; (i + 1 < config->loss_count) && (i + 1 < BELT_LOSS_CAPACITY); ++i) {
-        sum += BELT_HALF * (config->loss_rate[i] + config->loss_rate[i + 1]);
+        const belt_real_t left = of_size ? size_of(rate[i]) : rate[i];
+        const belt_real_t right = of_size ? size_of(rate[i + 1]) : rate[i + 1];
+        sum += BELT_HALF * (left + right);
     }
     return sum / BELT_REAL(config->loss_count - 1);
 }
 
+belt_real_t belt_config_loss_mean(const belt_config_t *config) {
+    return mean_loss(config, false);
+}
+
 belt_real_t belt_config_setpoint_flux(const belt_config_t *config) {
-    return config->level_setpoint / (config->connectivity * config->service_time);
+    return belt_law_service(config->level_setpoint, BELT_REAL(1) / config->service_time,
+                            config->service_rate_max) /
+           config->connectivity;
 }
 
 belt_real_t belt_config_slope_min(const belt_config_t *config) {
@@ -57,7 +74,13 @@ belt_real_t belt_config_dead_time_max(const belt_config_t *config) {
 }
 
 belt_real_t belt_config_loss_exponent(const belt_config_t *config) {
-    return belt_config_loss_mean(config) * belt_config_dead_time_max(config);
+    return mean_loss(config, true) * belt_config_dead_time_max(config);
+}
+
+/** Greatest growth on the way, as an exponent: of the mean size what is not loss, and half of that. */
+static belt_real_t growth_exponent(const belt_config_t *config) {
+    return BELT_HALF * (mean_loss(config, true) - belt_config_loss_mean(config)) *
+           belt_config_dead_time_max(config);
 }
 
 uint32_t belt_config_sample_periods(const belt_config_t *config) {
@@ -115,7 +138,7 @@ static belt_rule_t line_rule(const belt_config_t *config, belt_status_t code) {
         case BELT_LOSS_COUNT:
             return closed(BELT_REAL(1), BELT_REAL(config->loss_count),
                           BELT_REAL(BELT_LOSS_CAPACITY));
-        default: return closed(BELT_REAL(0), worst_loss_rate(config), BELT_DIMENSION_MAX);
+        default: return closed(-BELT_DIMENSION_MAX, worst_loss_rate(config), BELT_DIMENSION_MAX);
     }
 }
 
@@ -137,13 +160,14 @@ static belt_rule_t discretisation_rule(const belt_config_t *config, belt_status_
         case BELT_LOSS_EXPONENT:
             return at_most(belt_config_loss_exponent(config), BELT_LOSS_EXPONENT_MAX);
         case BELT_LOSS_PER_NODE:
-            return at_most(worst_loss_rate(config) * dwell_max, BELT_CHANGE_PER_NODE_MAX);
+            return at_most(size_of(worst_loss_rate(config)) * dwell_max, BELT_CHANGE_PER_NODE_MAX);
         case BELT_REWORK_PER_NODE:
             return at_most(config->rework_rate * config->belt_length * dwell_max,
                            BELT_CHANGE_PER_NODE_MAX);
-        case BELT_REWORK_GAIN: /* A*(D - x) over the belt at its slowest */
+        case BELT_REWORK_GAIN: /* A*(D - x) over the belt at its slowest, with what it grows by */
             return at_most(BELT_HALF * config->rework_rate * config->belt_length *
-                               belt_config_dead_time_max(config),
+                               belt_config_dead_time_max(config) /
+                               (BELT_REAL(1) + belt_expm1(-growth_exponent(config))),
                            BELT_REWORK_GAIN_MAX);
         case BELT_SERVICE_PER_NODE:
             return at_most(dwell_max / config->service_time, BELT_SERVICE_PER_NODE_MAX);

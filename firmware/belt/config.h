@@ -65,9 +65,10 @@ typedef struct {
     belt_real_t level_capacity; /**< Qmax: parts that the buffer holds. */
     belt_real_t rework_rate;    /**< A: of the density v leaving, A (D - x) v comes back at x each
                                        second [1/(m s)], 0 ... BELT_DIMENSION_MAX. */
-    belt_real_t loss_rate[BELT_LOSS_CAPACITY]; /**< C(x): share lost in a second [1/s], 0 ...
-                                       BELT_DIMENSION_MAX; equally spaced from outlet (first) to
-                                       inlet (last), linear between. */
+    belt_real_t loss_rate[BELT_LOSS_CAPACITY]; /**< C(x): share lost in a second [1/s], below
+                                       0 what grows by itself, at most BELT_DIMENSION_MAX in size;
+                                       equally spaced from outlet (first) to inlet (last), linear
+                                       between. */
     uint16_t loss_count;                       /**< values in loss_rate; 1: the loss is uniform. */
 
     /* The law. */
@@ -141,7 +142,8 @@ belt_real_t belt_config_slowdown_max(const belt_config_t *config);
 /** Mean of C(x) along the belt: trapezoids between the equally spaced values [1/s]. */
 belt_real_t belt_config_loss_mean(const belt_config_t *config);
 
-/** Mean of C(x) along the belt times the longest dead time: exponent of the greatest 1/survival. */
+/** Mean of |C(x)| along the belt (between two values of either sign no less than that) times the
+ * longest dead time: 1/survival and survival stay below its exponential. */
 belt_real_t belt_config_loss_exponent(const belt_config_t *config);
 
 /** A flux that no sound line can pass: ten times the greatest that the law can ask for, all losses

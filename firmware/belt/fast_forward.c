@@ -7,7 +7,8 @@ static inline void move_on(belt_transfer_t *transfer, belt_real_t loss, belt_rea
     const belt_real_t kept = belt_line_survival(loss);
     const belt_real_t kept_halfway = BELT_REAL(1) - BELT_HALF * loss;
     transfer->survival *= kept;
-    transfer->rework = transfer->rework * kept + rework_rate * left * time * kept_halfway;
+    transfer->rework =
+        transfer->rework * kept + rework_rate * belt_law_returned(left) * time * kept_halfway;
 }
 
 belt_transfer_t belt_fast_forward(const belt_line_t *line, const belt_passed_t *passed,

@@ -1,6 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 #include "line_model.h"
 
+#if BELT_LINE_HAS_TABLES
+static bool is_uniform(const belt_config_t *config) {
+    for (uint32_t i = 1; i < config->loss_count; ++i) {
+        if ((config->loss_rate[i] > config->loss_rate[0]) ||
+            (config->loss_rate[i] < config->loss_rate[0])) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /** Integral of C from the outlet to x [m/s], exact for the linear pieces of the table. */
 static belt_real_t loss_up_to(const belt_config_t *config, belt_real_t x) {
     if (config->loss_count <= 1) {
@@ -19,15 +30,46 @@ static belt_real_t loss_up_to(const belt_config_t *config, belt_real_t x) {
     return integral;
 }
 
-static bool is_uniform(const belt_config_t *config) {
-    for (uint32_t i = 1; i < config->loss_count; ++i) {
-        if ((config->loss_rate[i] > config->loss_rate[0]) ||
-            (config->loss_rate[i] < config->loss_rate[0])) {
-            return false;
-        }
+#ifdef BELT_LINE_LAWS
+static void fill_rework(belt_line_t *line, const belt_config_t *config) {
+    const uint32_t nodes = config->node_count;
+    for (uint32_t i = 0; i <= nodes; ++i) {
+        line->rework[i] = belt_law_rework(line->spacing * (belt_real_t)i, config->belt_length,
+                                          config->rework_rate);
     }
+    line->rework[nodes + 1u] = line->rework[nodes];
+}
+#else
+static void fill_rework(belt_line_t *line, const belt_config_t *config) {
+    (void)line;
+    (void)config;
+}
+#endif
+
+static void fill_tables(belt_line_t *line, const belt_config_t *config) {
+    const uint32_t nodes = config->node_count;
+    line->loss_sum[0] = BELT_REAL(0);
+    for (uint32_t i = 0; i < nodes; ++i) {
+        const belt_real_t inner = loss_up_to(config, line->spacing * (belt_real_t)i);
+        const belt_real_t outer = loss_up_to(config, line->spacing * (belt_real_t)(i + 1u));
+        line->loss[i] =
+            line->loss_is_uniform ? config->loss_rate[0] : (outer - inner) / line->spacing;
+        line->loss_sum[i + 1] = line->loss_sum[i] + line->loss[i];
+    }
+    line->loss[nodes] = line->loss[nodes - 1u];
+    fill_rework(line, config);
+}
+#else
+static bool is_uniform(const belt_config_t *config) {
+    (void)config;
     return true;
 }
+
+static void fill_tables(belt_line_t *line, const belt_config_t *config) {
+    (void)line;
+    (void)config;
+}
+#endif
 
 void belt_line_init(belt_line_t *line, const belt_config_t *config) {
     const belt_real_t nodes = BELT_REAL(config->node_count);
@@ -37,6 +79,8 @@ void belt_line_init(belt_line_t *line, const belt_config_t *config) {
     line->service_rate = BELT_REAL(1) / config->service_time;
     line->service_rate_max = config->service_rate_max;
     line->connectivity = config->connectivity;
+    line->gain = config->connectivity * line->spacing;
+    line->crowding = (config->prediction == BELT_HOLD_CONGESTION) ? BELT_REAL(0) : BELT_REAL(1);
     line->level_capacity = config->level_capacity;
     line->rework_at_outlet = config->rework_rate * config->belt_length;
     line->rework_per_spacing = line->rework_at_outlet / nodes;
@@ -46,13 +90,5 @@ void belt_line_init(belt_line_t *line, const belt_config_t *config) {
     line->cell_slots = (config->node_count + 2u) & ~1u;
     line->loss_is_uniform = is_uniform(config);
     line->loss_mean = belt_config_loss_mean(config);
-    line->loss_sum[0] = BELT_REAL(0);
-    for (uint32_t i = 0; i < config->node_count; ++i) {
-        const belt_real_t inner = loss_up_to(config, line->spacing * (belt_real_t)i);
-        const belt_real_t outer = loss_up_to(config, line->spacing * (belt_real_t)(i + 1u));
-        line->loss[i] =
-            line->loss_is_uniform ? config->loss_rate[0] : (outer - inner) / line->spacing;
-        line->loss_sum[i + 1] = line->loss_sum[i] + line->loss[i];
-    }
-    line->loss[config->node_count] = line->loss[config->node_count - 1];
+    fill_tables(line, config);
 }

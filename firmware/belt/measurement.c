@@ -207,37 +207,38 @@ static belt_real_t gate_applied_flux(belt_gate_t *gate, const belt_measurement_t
     return measurement->applied_flux;
 }
 
-belt_trusted_t belt_measurement_gate(belt_gate_t *gate, const belt_measurement_t *measurement,
-                                     belt_real_t command, const belt_line_t *line,
-                                     const belt_limits_t *limits) {
+void belt_measurement_gate(belt_trusted_t *trusted, belt_gate_t *gate,
+                           const belt_measurement_t *measurement, belt_real_t command,
+                           const belt_line_t *line, const belt_limits_t *limits) {
     const uint32_t level_is_bad = BELT_ERROR_LEVEL_MISSING | BELT_ERROR_LEVEL_INVALID |
                                   BELT_ERROR_LEVEL_STALE | BELT_ERROR_LEVEL_STEP |
                                   BELT_ERROR_PERIODS_LOST;
-    belt_trusted_t trusted = {0};
+    const belt_trusted_t nothing = {0};
     uint32_t error_bits = 0;
-    trusted.periods = gate_periods(gate, measurement, &error_bits);
-    if ((trusted.periods == 0u) && (gate->has_level != 0u)) { /* nothing moves */
-        trusted.level = gate->level;
-        trusted.applied_flux = command;
-        trusted.error_bits = error_bits;
-        return trusted;
+    *trusted = nothing;
+    trusted->periods = gate_periods(gate, measurement, &error_bits);
+    if ((trusted->periods == 0u) && (gate->has_level != 0u)) { /* nothing moves */
+        trusted->level = gate->level;
+        trusted->applied_flux = command;
+        trusted->error_bits = error_bits;
+        return;
     }
-    trusted.level_is_new =
-        gate_level(gate, measurement, line, limits, trusted.periods, &error_bits);
-    trusted.level = gate->level;
+    trusted->level_is_new =
+        gate_level(gate, measurement, line, limits, trusted->periods, &error_bits);
+    trusted->level = gate->level;
     const bool is_bad = (error_bits & level_is_bad) != 0u;
     /* A sample that comes after lost periods is one that is not believed, and no longer lack of it. */
-    const uint32_t bad_periods = trusted.level_is_new ? 1u : trusted.periods;
-    judge_level(gate, trusted.level_is_new && !is_bad, is_bad, bad_periods, limits);
+    const uint32_t bad_periods = trusted->level_is_new ? 1u : trusted->periods;
+    judge_level(gate, trusted->level_is_new && !is_bad, is_bad, bad_periods, limits);
 
-    trusted.has_outlet_flux = (measurement->present & BELT_HAS_OUTLET_FLUX) != 0u;
-    if (trusted.has_outlet_flux && !is_sound(measurement->outlet_flux, line->flux_bound)) {
-        trusted.has_outlet_flux = false;
+    trusted->has_outlet_flux = (measurement->present & BELT_HAS_OUTLET_FLUX) != 0u;
+    if (trusted->has_outlet_flux && !is_sound(measurement->outlet_flux, line->flux_bound)) {
+        trusted->has_outlet_flux = false;
         error_bits |= BELT_ERROR_OUTLET_FLUX_INVALID;
     }
-    trusted.outlet_flux = trusted.has_outlet_flux ? measurement->outlet_flux : BELT_REAL(0);
-    trusted.applied_flux = gate_applied_flux(gate, measurement, command, line, limits, &error_bits);
-    trusted.has_density = gate_density(measurement, line, &error_bits);
-    trusted.error_bits = error_bits;
-    return trusted;
+    trusted->outlet_flux = trusted->has_outlet_flux ? measurement->outlet_flux : BELT_REAL(0);
+    trusted->applied_flux =
+        gate_applied_flux(gate, measurement, command, line, limits, &error_bits);
+    trusted->has_density = gate_density(measurement, line, &error_bits);
+    trusted->error_bits = error_bits;
 }

@@ -115,8 +115,8 @@ void belt_measurement_init(belt_gate_t *gate, const belt_limits_t *limits);
 
 /** Sorts one period's inputs; `command` is the flux commanded in the last step [parts/s]. O(1), a
  * density profile O(node_count). */
-belt_trusted_t belt_measurement_gate(belt_gate_t *gate, const belt_measurement_t *measurement,
-                                     belt_real_t command, const belt_line_t *line,
-                                     const belt_limits_t *limits);
+void belt_measurement_gate(belt_trusted_t *trusted, belt_gate_t *gate,
+                           const belt_measurement_t *measurement, belt_real_t command,
+                           const belt_line_t *line, const belt_limits_t *limits);
 
 #endif

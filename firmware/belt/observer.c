@@ -73,6 +73,11 @@ belt_real_t belt_observer_rest_of_outlet(const belt_observer_t *observer) {
            observer->step[cell] * gone * (BELT_REAL(1) - cut) / (BELT_REAL(1) - gone);
 }
 
+/** What of the material that leaves is put back [parts/m]. */
+static belt_real_t returned(const belt_observer_t *observer) {
+    return belt_law_returned(observer->outlet_density);
+}
+
 /** What leaves of a cell in a share of a spacing, when its centre still has `place` spacings to go at
  * `pace`: integral of the density over the share. `amount` is that integral now. */
 static belt_real_t on_leaving(const belt_observer_t *observer, const belt_line_t *line,
@@ -82,7 +87,7 @@ static belt_real_t on_leaving(const belt_observer_t *observer, const belt_line_t
         return amount;
     }
     const belt_real_t rework =
-        belt_line_rework(line, BELT_HALF * place) * observer->outlet_density * place * pace;
+        belt_line_rework(line, BELT_HALF * place) * returned(observer) * place * pace;
     return amount * belt_line_survival(belt_line_loss_sum(line, place) * pace) + rework * share;
 }
 
@@ -107,10 +112,10 @@ static belt_real_t leaving_density(const belt_observer_t *observer, const belt_l
 /** One period's ageing of whole cells, the same for all or different from cell to cell. */
 typedef struct {
     const belt_line_t *line;
-    belt_real_t time_here;   /**< time in the spacing a cell's centre is in [s]. */
-    belt_real_t time_next;   /**< time in the next one towards the outlet [s]. */
-    belt_real_t rework;      /**< density that comes back to the first cell [parts/m]. */
-    belt_real_t rework_less; /**< how much less of it each cell further in [parts/m]. */
+    belt_real_t time_here; /**< time in the spacing a cell's centre is in [s]. */
+    belt_real_t time_next; /**< time in the next one towards the outlet [s]. */
+    belt_real_t source;    /**< density returned, times the period [parts s/m]. */
+    belt_real_t place;     /**< of the first cell's centre, halfway of the period [spacings]. */
 } ageing_t;
 
 static void age_uniform(belt_observer_t *observer, ageing_t ageing) {
@@ -118,8 +123,9 @@ static void age_uniform(belt_observer_t *observer, ageing_t ageing) {
     const belt_real_t loss = line->loss_mean * (ageing.time_here + ageing.time_next);
     const belt_real_t lost = belt_line_lost(loss);
     const belt_real_t kept = BELT_REAL(1) - lost;
-    const belt_real_t rework_less = ageing.rework_less * (BELT_REAL(1) - BELT_HALF * loss);
-    belt_real_t rework = ageing.rework * (BELT_REAL(1) - BELT_HALF * loss);
+    const belt_real_t source = ageing.source * (BELT_REAL(1) - BELT_HALF * loss);
+    const belt_real_t rework_less = source * line->rework_per_spacing;
+    belt_real_t rework = source * belt_line_rework(line, ageing.place);
     /* The ring in its two straight runs. */
     uint32_t from = observer->outlet + 1u;
     uint32_t to = observer->outlet + line->node_count;
@@ -137,17 +143,18 @@ static void age_uniform(belt_observer_t *observer, ageing_t ageing) {
 
 static void age_profile(belt_observer_t *observer, ageing_t ageing) {
     const belt_line_t *line = ageing.line;
-    belt_real_t rework = ageing.rework;
+    belt_real_t place = ageing.place;
     uint32_t cell = observer->outlet;
     for (uint32_t i = 1; i < line->node_count; ++i) {
         cell = belt_observer_behind(line, cell, 1u);
-        const belt_real_t loss =
-            ageing.time_here * line->loss[i] + ageing.time_next * line->loss[i - 1];
+        const belt_real_t loss = ageing.time_here * belt_line_loss(line, i) +
+                                 ageing.time_next * belt_line_loss(line, i - 1u);
         const belt_real_t lost = belt_line_lost(loss);
-        observer->density[cell] +=
-            rework * (BELT_REAL(1) - BELT_HALF * loss) - observer->density[cell] * lost;
+        const belt_real_t rework =
+            ageing.source * belt_line_rework(line, place) * (BELT_REAL(1) - BELT_HALF * loss);
+        observer->density[cell] += rework - observer->density[cell] * lost;
         observer->step[cell] *= BELT_REAL(1) - lost;
-        rework -= ageing.rework_less;
+        place += BELT_REAL(1);
     }
 }
 
@@ -160,18 +167,18 @@ static void age_cells(belt_observer_t *observer, const belt_line_t *line,
      * spacing, the other in the next, the same for all of them. */
     const belt_real_t ahead = (offset > BELT_REAL(0)) ? offset : BELT_REAL(0);
     const belt_real_t here = (travel < ahead) ? travel : ahead;
-    const belt_real_t source = observer->outlet_density * passage->duration;
     const ageing_t ageing = {
         line,
         here * pace,
         (travel - here) * pace,
-        source * belt_line_rework(line, BELT_REAL(1) + offset - BELT_HALF * travel),
-        source * line->rework_per_spacing,
+        returned(observer) * passage->duration,
+        BELT_REAL(1) + offset - BELT_HALF * travel,
     };
     observer->density[observer->outlet] =
-        observer->density[observer->outlet] * belt_line_survival(line->loss[0] * ageing.time_here) +
-        line->rework_at_outlet * observer->outlet_density * ageing.time_here;
-    if (line->loss_is_uniform) {
+        observer->density[observer->outlet] *
+            belt_line_survival(belt_line_loss(line, 0u) * ageing.time_here) +
+        belt_line_rework(line, BELT_REAL(0)) * returned(observer) * ageing.time_here;
+    if (belt_line_is_plain(line)) {
         age_uniform(observer, ageing);
     } else {
         age_profile(observer, ageing);
@@ -187,15 +194,17 @@ static void feed(belt_observer_t *observer, const belt_line_t *line, uint32_t op
     observer->jumps_place += weight * from;
     /* While the cell fills, its centre moves at half the speed of the belt; what is fed now is
      * taken at the age at which it will pass the place where the centre is at the end. */
-    const belt_real_t loss = line->loss[line->node_count - 1] * pace;
-    const belt_real_t rework = line->rework_per_spacing * observer->outlet_density * pace;
+    const belt_real_t loss = belt_line_loss(line, line->node_count) * pace;
+    const belt_real_t source = returned(observer) * pace;
     const belt_real_t drift = BELT_HALF * (to - from);
     const belt_real_t centre = BELT_HALF * to;
     const belt_real_t centre_of_fresh = BELT_HALF * (from + to);
     const belt_real_t kept = belt_line_survival(loss * drift);
-    const belt_real_t gained = rework * drift * (centre - BELT_HALF * drift);
+    const belt_real_t gained =
+        source * drift * belt_line_rework_beyond_inlet(line, centre - BELT_HALF * drift);
     const belt_real_t fresh =
-        density * belt_line_survival(loss * centre) + BELT_HALF * rework * centre * centre;
+        density * belt_line_survival(loss * centre) +
+        source * centre * belt_line_rework_beyond_inlet(line, BELT_HALF * centre);
     const belt_real_t present = observer->density[open] * kept + gained;
     observer->moment = observer->moment * kept + gained * BELT_HALF * from * from +
                        fresh * centre_of_fresh * (to - from);
@@ -224,8 +233,9 @@ static void close_cell(belt_observer_t *observer, const belt_line_t *line, uint3
     const belt_real_t time = since * pace;
     const belt_real_t from_inlet = BELT_HALF + BELT_HALF * since;
     observer->density[open] =
-        observer->density[open] * belt_line_survival(line->loss[line->node_count - 1] * time) +
-        line->rework_per_spacing * from_inlet * observer->outlet_density * time;
+        observer->density[open] *
+            belt_line_survival(belt_line_loss(line, line->node_count) * time) +
+        belt_line_rework_beyond_inlet(line, from_inlet) * returned(observer) * time;
 
     const uint32_t fresh = belt_observer_behind(line, open, 1u);
     observer->outlet = belt_observer_behind(line, observer->outlet, 1u);

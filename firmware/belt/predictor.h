@@ -22,19 +22,10 @@
 #ifndef BELT_PREDICTOR_H
 #define BELT_PREDICTOR_H
 
-#include "march.h"
+#include "prediction.h"
 
-/** What the march starts from. */
-typedef struct {
-    belt_real_t level;       /**< Q(t) [parts]. */
-    belt_real_t congestion;  /**< R(t) [parts s]. */
-    belt_real_t disturbance; /**< flow into the buffer that the model does not know [parts/s]. */
-    belt_real_t disturbance_flux; /**< the outlet flux that would make it, disturbance/alpha. */
-} belt_present_t;
-
-/** Marches. `kind` says whether the speed follows the predicted congestion. */
-void belt_predictor_march(belt_prediction_t *prediction, const belt_line_t *line,
-                          const belt_level_history_t *history, const belt_observer_t *observer,
-                          const belt_present_t *present, belt_prediction_kind_t kind);
+/** Marches over the line as the model has it. Whether the speed follows the predicted congestion says
+ * line.crowding. */
+void belt_predictor_march(belt_prediction_t *prediction, const belt_model_t *model);
 
 #endif

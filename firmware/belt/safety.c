@@ -15,7 +15,7 @@ typedef struct {
 /** What both bounds are made of. */
 typedef struct {
     const belt_controller_t *controller;
-    belt_present_t present;
+    const belt_present_t *present;
     const belt_prediction_t *march; /**< anew: the controller's own is under no seal. */
     belt_real_t arriving;           /**< u(Q*, p1(D)) [parts/s]. */
     belt_real_t holding;            /**< u(Q*, Q*) [parts/s]. */
@@ -50,11 +50,11 @@ static void conclude(belt_promise_t *promise, const outlook_t *outlook) {
     promise->holds = outlook->applies && (promise->left < promise->right);
 }
 
-/** Whether the buffer is nowhere full along the march, which lets no level fall below 0. */
+/** Whether the level stays in the buffer, and the buffer is nowhere full along the march. */
 static bool stays_below(const belt_prediction_t *march, belt_real_t capacity) {
     bool stays = true;
-    for (uint32_t i = 0; i <= march->count; ++i) {
-        stays = stays && (march->level[i] < capacity);
+    for (uint32_t i = 0; i <= march->inlet.count; ++i) {
+        stays = stays && (march->level[i] >= BELT_REAL(0)) && (march->level[i] < capacity);
     }
     return stays;
 }
@@ -62,10 +62,10 @@ static bool stays_below(const belt_prediction_t *march, belt_real_t capacity) {
 /** Greatest density on the belt, both sides of every cut looked at; `is_sound` becomes false where a
  * cell holds less than nothing or no number [parts/m]. */
 static belt_real_t greatest_density(const belt_controller_t *controller, bool *is_sound) {
-    const belt_observer_t *observer = &controller->observer;
+    const belt_observer_t *observer = &controller->model.observer;
     belt_real_t greatest = BELT_REAL(0);
-    for (uint32_t i = 0; i <= controller->line.node_count; ++i) {
-        const uint32_t cell = belt_observer_behind(&controller->line, observer->outlet, i);
+    for (uint32_t i = 0; i <= controller->model.line.node_count; ++i) {
+        const uint32_t cell = belt_observer_behind(&controller->model.line, observer->outlet, i);
         const belt_real_t mean = observer->density[cell];
         const belt_real_t near_side =
             mean - observer->step[cell] * (BELT_REAL(1) - observer->cut[cell]);
@@ -75,26 +75,26 @@ static belt_real_t greatest_density(const belt_controller_t *controller, bool *i
     return greatest;
 }
 
+/** Whether material grows anywhere on its way. */
+static bool grows(const belt_config_t *config) {
+    return belt_config_loss_exponent(config) >
+           belt_config_loss_mean(config) * belt_config_dead_time_max(config);
+}
+
 static void look_ahead(outlook_t *outlook, belt_prediction_t *march,
                        const belt_controller_t *controller) {
-    const belt_line_t *line = &controller->line;
-    const belt_level_history_t *history = &controller->history;
-    const belt_real_t congestion_max =
-        controller->config.speed_window * controller->config.level_capacity;
+    const belt_model_t *model = &controller->model;
     outlook->controller = controller;
     outlook->march = march;
-    outlook->present = controller->present;
-    outlook->present.level = belt_line_level(line, controller->present.level);
-    outlook->present.congestion =
-        belt_within(BELT_REAL(0), controller->present.congestion, congestion_max);
-    belt_predictor_march(march, line, history, &controller->observer, &outlook->present,
-                         controller->prediction_kind);
-    outlook->arriving =
-        belt_command_wanted(&controller->law, &outlook->present, march->inlet_level);
+    outlook->present = &model->present;
+    belt_predictor_march(march, model);
+    outlook->arriving = belt_command_wanted(&controller->law, &model->present, march->inlet.level);
     outlook->holding =
-        belt_command_wanted(&controller->law, &outlook->present, controller->law.level_setpoint);
-    outlook->applies = (controller->prediction_kind == BELT_PREDICT_CONGESTION) &&
-                       stays_below(march, line->level_capacity);
+        belt_command_wanted(&controller->law, &model->present, controller->law.level_setpoint);
+    outlook->applies = (controller->config.prediction == BELT_PREDICT_CONGESTION) &&
+                       (model->present.congestion >= BELT_REAL(0)) &&
+                       !grows(&controller->config) &&
+                       stays_below(march, model->line.level_capacity);
 }
 
 /** M/u < 2/(A D^2 s), s = 1 + tau Qmax/congestion_scale (Abound), (Mchar). */
@@ -104,13 +104,13 @@ static belt_promise_t proposition(const outlook_t *outlook, belt_real_t densest)
     const belt_real_t crowded = belt_config_slowdown_max(config);
     /* What a negative disturbance takes, the law adds to what it wants. */
     const belt_real_t wanted_max =
-        config->nominal_flux_max - lesser(outlook->present.disturbance_flux, BELT_REAL(0));
+        config->nominal_flux_max - lesser(outlook->present->disturbance_flux, BELT_REAL(0));
     const belt_real_t fed = config->processing_time * crowded * crowded * wanted_max;
     const belt_real_t now =
-        belt_command_wanted(&controller->law, &outlook->present, outlook->present.level);
+        belt_command_wanted(&controller->law, outlook->present, outlook->present->level);
     /* A D^2 P s; BELT_REWORK_GAIN_MAX keeps it below 2. */
     const belt_real_t rework =
-        controller->line.rework_at_outlet * belt_config_dead_time_max(config);
+        controller->model.line.rework_at_outlet * belt_config_dead_time_max(config);
     belt_promise_t promise;
     promise.flux_min = lesser(outlook->holding, lesser(now, outlook->arriving));
     promise.density_max =
@@ -130,13 +130,13 @@ static void pass_level(levels_t *levels, belt_real_t level) {
 /** The levels of the window, then those predicted, then the set-point. */
 static levels_t levels_passed(const outlook_t *outlook) {
     const belt_controller_t *controller = outlook->controller;
-    const belt_level_history_t *history = &controller->history;
+    const belt_level_history_t *history = &controller->model.history;
     const belt_real_t oldest = belt_level_history_at(history, history->window);
     levels_t levels = {oldest, oldest, BELT_REAL(0)};
     for (uint32_t age = history->whole; age > 0u; --age) {
         pass_level(&levels, belt_level_history_at(history, (belt_real_t)age));
     }
-    for (uint32_t i = 0; i <= outlook->march->count; ++i) {
+    for (uint32_t i = 0; i <= outlook->march->inlet.count; ++i) {
         pass_level(&levels, outlook->march->level[i]);
     }
     pass_level(&levels, controller->law.level_setpoint);
@@ -157,18 +157,19 @@ static belt_real_t weight(const belt_line_t *line, belt_real_t place, belt_real_
  * have come in with the density `fed`: midpoints of the stretches [parts/s]. */
 static belt_real_t rework_after(const outlook_t *outlook, uint32_t gone, belt_real_t moved,
                                 belt_real_t fed, belt_real_t pace) {
-    const belt_line_t *line = &outlook->controller->line;
+    const belt_line_t *line = &outlook->controller->model.line;
     const belt_prediction_t *march = outlook->march;
     belt_real_t rework = BELT_REAL(0);
     belt_real_t place =
         (belt_real_t)line->node_count - moved; /* where the gone ones come in again */
-    for (uint32_t i = 0; i < march->count; ++i) {
+    for (uint32_t i = 0; i < march->inlet.count; ++i) {
         if (i == gone) {
             place = BELT_REAL(0);
         }
         const belt_real_t density = (i < gone) ? fed : march->outlet_density[i];
         const belt_real_t width = march->width[i];
-        rework += weight(line, place + BELT_HALF * width, pace) * width * density;
+        rework +=
+            weight(line, place + BELT_HALF * width, pace) * width * belt_law_returned(density);
         place += width;
     }
     return rework * line->spacing;
@@ -177,10 +178,11 @@ static belt_real_t rework_after(const outlook_t *outlook, uint32_t gone, belt_re
 /** The greatest of them, from the belt as it is to the one on which all has been fed, with what the
  * midpoints of stretches two nodes wide may miss of a smooth belt, (2/node_count)^2 [parts/s]. */
 static belt_real_t rework_ahead(const outlook_t *outlook, belt_real_t fed, belt_real_t pace) {
-    const belt_real_t stretch = BELT_REAL(2) / (belt_real_t)outlook->controller->line.node_count;
+    const belt_real_t stretch =
+        BELT_REAL(2) / (belt_real_t)outlook->controller->model.line.node_count;
     belt_real_t moved = BELT_REAL(0);
     belt_real_t greatest = rework_after(outlook, 0u, moved, fed, pace);
-    for (uint32_t gone = 1; gone <= outlook->march->count; ++gone) {
+    for (uint32_t gone = 1; gone <= outlook->march->inlet.count; ++gone) {
         moved += outlook->march->width[gone - 1u];
         greatest = greater(greatest, rework_after(outlook, gone, moved, fed, pace));
     }
@@ -189,7 +191,7 @@ static belt_real_t rework_ahead(const outlook_t *outlook, belt_real_t fed, belt_
 
 /** The rework of the belt as it is, moved on, against u. */
 static belt_promise_t sharper(const outlook_t *outlook) {
-    const belt_line_t *line = &outlook->controller->line;
+    const belt_line_t *line = &outlook->controller->model.line;
     const belt_real_t window = outlook->controller->config.speed_window;
     const levels_t levels = levels_passed(outlook);
     const belt_real_t quickest = belt_line_slowness(line, window * levels.least);
@@ -199,7 +201,7 @@ static belt_promise_t sharper(const outlook_t *outlook) {
     belt_promise_t promise;
     promise.flux_min = lesser(outlook->holding, outlook->arriving);
     promise.density_max = fed;
-    for (uint32_t i = 0; i < outlook->march->count; ++i) {
+    for (uint32_t i = 0; i < outlook->march->inlet.count; ++i) {
         promise.density_max = greater(promise.density_max, outlook->march->outlet_density[i]);
     }
     promise.left = fall * rework_ahead(outlook, fed, quickest * line->spacing);
@@ -211,9 +213,11 @@ static belt_promise_t sharper(const outlook_t *outlook) {
 /** The density at the inlet less the one with which w(D) = 0 (nu0). */
 static belt_real_t jump_at_the_inlet(const outlook_t *outlook) {
     const belt_prediction_t *march = outlook->march;
+    const belt_real_t slowness =
+        belt_line_slowness(&outlook->controller->model.line, march->inlet.congestion);
     const belt_real_t asked =
-        (march->inlet_slowness * outlook->arriving - march->inlet_rework) / march->inlet_survival;
-    return belt_within(-BELT_REAL_MAX, outlook->controller->observer.fed_density - asked,
+        (slowness * outlook->arriving - march->inlet_rework) / march->inlet_survival;
+    return belt_within(-BELT_REAL_MAX, outlook->controller->model.observer.fed_density - asked,
                        BELT_REAL_MAX);
 }
 

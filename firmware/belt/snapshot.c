@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#define STATE_BEGIN offsetof(belt_controller_t, history)
+#define STATE_BEGIN offsetof(belt_controller_t, model.history)
 
 uint32_t belt_snapshot_crc(uint32_t crc, const void *bytes, size_t size) {
     /* Remainders of the 16 half bytes. */
@@ -97,12 +97,12 @@ belt_status_t belt_snapshot_take(const belt_controller_t *controller, belt_snaps
 /** What outlives a long stop is carried over into a controller that begins anew. */
 static belt_status_t begin_anew(belt_controller_t *controller) {
     const belt_supervisor_t supervisor = controller->supervisor;
-    const belt_real_t disturbance = controller->estimator.disturbance;
+    const belt_real_t disturbance = controller->model.estimator.disturbance;
     (void)belt_init(controller, &controller->config);
     (void)belt_set_mode(controller, supervisor.requested);
     (void)belt_set_manual_flux(controller, supervisor.manual_flux);
-    controller->estimator.disturbance = disturbance;
-    controller->short_history = controller->history.length;
+    controller->model.estimator.disturbance = disturbance;
+    controller->short_history = controller->model.history.length;
     return BELT_SNAPSHOT_OLD;
 }
 
@@ -145,8 +145,8 @@ belt_status_t belt_snapshot_restore(belt_controller_t *controller, const belt_co
         return begin_anew(controller);
     }
     controller->gate.owed_periods = down_periods;
-    if (down_periods >= controller->history.whole) {
-        controller->short_history = controller->history.length;
+    if (down_periods >= controller->model.history.whole) {
+        controller->short_history = controller->model.history.length;
     }
     return BELT_OK;
 }

@@ -32,7 +32,7 @@
 
 /** Bytes of the controller that are its state. */
 #define BELT_STATE_SIZE                                                                            \
-    (offsetof(belt_controller_t, trusted) - offsetof(belt_controller_t, history))
+    (offsetof(belt_controller_t, trusted) - offsetof(belt_controller_t, model.history))
 
 typedef struct {
     uint32_t layout;        /**< BELT_SNAPSHOT_LAYOUT. */

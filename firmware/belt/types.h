@@ -106,7 +106,7 @@ typedef enum {
     BELT_LEVEL_CAPACITY,   /**< level_capacity is a number in its range. */
     BELT_REWORK_RATE,      /**< 0 <= rework_rate, a number. */
     BELT_LOSS_COUNT,       /**< 1 <= loss_count <= BELT_LOSS_CAPACITY. */
-    BELT_LOSS_RATE,        /**< every loss_rate is a number >= 0. */
+    BELT_LOSS_RATE,        /**< every loss_rate is a number in its range. */
 
     /* Rules of the discretisation. */
     BELT_NODE_COUNT,      /**< 4 <= node_count <= BELT_NODE_CAPACITY. */
@@ -115,7 +115,7 @@ typedef enum {
     BELT_WINDOW_SHORT,    /**< speed_window is at least one period. */
     BELT_WINDOW_LONG,     /**< speed_window/period + 2 <= BELT_WINDOW_CAPACITY. */
     BELT_DEAD_TIME,       /**< the longest dead time is at most BELT_DEAD_TIME_PERIODS periods. */
-    BELT_LOSS_EXPONENT,   /**< 1/survival stays below exp(BELT_LOSS_EXPONENT_MAX). */
+    BELT_LOSS_EXPONENT,   /**< survival and 1/survival stay below exp(BELT_LOSS_EXPONENT_MAX). */
     BELT_LOSS_PER_NODE,   /**< loss while passing one node spacing is small: raise node_count. */
     BELT_REWORK_PER_NODE, /**< rework while passing one spacing is small: raise node_count. */
     BELT_REWORK_GAIN,     /**< less comes back than has left, or the line itself runs away. */

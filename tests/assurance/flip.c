@@ -218,10 +218,11 @@ static outcome_t flip(const prepared_t *state, size_t byte, unsigned bit) {
     return is_said ? SAID : (is_late ? LATE : SILENT);
 }
 
-/** The tables of losses are not under the seal: a wrong loss is a wrong model, and stays one. */
+/** The tables of losses and rework are not under the seal: a wrong loss is a wrong model, and stays one. */
 static bool may_be_silent(size_t field) {
-    return (fields[field].begin == offsetof(belt_controller_t, line.loss)) ||
-           (fields[field].begin == offsetof(belt_controller_t, line.loss_sum));
+    return (fields[field].begin == offsetof(belt_controller_t, model.line.loss)) ||
+           (fields[field].begin == offsetof(belt_controller_t, model.line.loss_sum)) ||
+           (fields[field].begin == offsetof(belt_controller_t, model.line.rework));
 }
 
 static void print_table(unsigned long count) {
@@ -259,7 +260,7 @@ int main(int argument_count, char *argument[]) {
         do {
             byte = random_bits(&random) % sizeof(belt_controller_t);
             field = field_of(byte);
-        } while ((fields[field].begin == offsetof(belt_controller_t, history.level)) &&
+        } while ((fields[field].begin == offsetof(belt_controller_t, model.history.level)) &&
                  (random_bits(&random) % LEVEL_RINGS_SHARE != 0u));
         const unsigned bit = (unsigned)(random_bits(&random) % 8u);
         const prepared_t *state = &prepared[random_bits(&random) % STATES];

@@ -64,19 +64,19 @@ static void widen_all(bounds_t *bounds) {
     const belt_controller_t *controller = &from_zero.controller;
     widen(bounds, 0, small_line_level(&line));
     widen(bounds, 1, (double)controller->command.inlet_flux);
-    widen(bounds, 2, (double)controller->present.congestion);
+    widen(bounds, 2, (double)controller->model.present.congestion);
     widen(bounds, 3,
-          1.0 + (double)controller->estimator.disturbance); /* beside a flux of about 1 */
-    widen(bounds, 4, (double)controller->estimator.level);
-    for (size_t i = 0; i < controller->line.cell_slots; ++i) {
-        widen(bounds, 5u + i, (double)controller->observer.density[i]);
+          1.0 + (double)controller->model.estimator.disturbance); /* beside a flux of about 1 */
+    widen(bounds, 4, (double)controller->model.estimator.level);
+    for (size_t i = 0; i < controller->model.line.cell_slots; ++i) {
+        widen(bounds, 5u + i, (double)controller->model.observer.density[i]);
     }
 }
 
 /** How much further or less far a quantity ranges at the end, of its size. */
 static double wander(void) {
     double worst = 0.0;
-    for (size_t i = 0; i < 5u + from_zero.controller.line.cell_slots; ++i) {
+    for (size_t i = 0; i < 5u + from_zero.controller.model.line.cell_slots; ++i) {
         const double size = fmax(fabs(first_stretch.greatest[i]), 1e-3);
         worst = fmax(worst, fabs(first_stretch.least[i] - last_stretch.least[i]) / size);
         worst = fmax(worst, fabs(first_stretch.greatest[i] - last_stretch.greatest[i]) / size);

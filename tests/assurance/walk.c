@@ -61,13 +61,12 @@ static bool read_row(row_t *row) {
 
 /** What the law alone asks for after a step that made a march. */
 static double law_flux(const belt_controller_t *controller) {
-    if (!belt_is_running(controller) || (controller->prediction.count == 0u)) {
+    if (!belt_is_running(controller) || (controller->prediction.inlet.count == 0u)) {
         return 0.0;
     }
-    return (double)belt_command_limit(belt_command_solve(&controller->prediction, &controller->line,
-                                                         &controller->history, &controller->law,
-                                                         &controller->present),
-                                      controller->limits.inlet_flux_max);
+    return (double)belt_command_limit(
+        belt_command_solve(&controller->prediction, &controller->model, &controller->law),
+        controller->limits.inlet_flux_max);
 }
 
 static void answer(belt_controller_t *controller, const row_t *row) {
@@ -93,7 +92,7 @@ static void answer(belt_controller_t *controller, const row_t *row) {
            belt_status_name(of_flux), belt_status_name(status), (unsigned)command.mode,
            (unsigned)command.error_bits, (unsigned)controller->gate.health,
            (double)command.inlet_flux, law_flux(controller), (double)controller->supervisor.bump,
-           (double)controller->estimator.disturbance);
+           (double)controller->model.estimator.disturbance);
 }
 
 int main(void) {

@@ -81,8 +81,8 @@ void fuzz_check_command(const belt_command_t *command, belt_real_t inlet_flux_ma
 }
 
 void fuzz_check_controller(const belt_controller_t *controller) {
-    const belt_line_t *line = &controller->line;
-    const belt_observer_t *observer = &controller->observer;
+    const belt_line_t *line = &controller->model.line;
+    const belt_observer_t *observer = &controller->model.observer;
     /* The rework that comes back falls linearly to 0 at the inlet: but for its rounding. */
     const belt_real_t rounding = BELT_REAL_EPSILON * line->density_bound;
     for (uint32_t cell = 0; cell < line->cell_slots; ++cell) {
@@ -93,16 +93,16 @@ void fuzz_check_controller(const belt_controller_t *controller) {
     FUZZ_CHECK((observer->outlet_density >= BELT_REAL(0)) &&
                (observer->outlet_density <= line->density_bound));
     FUZZ_CHECK((observer->gone >= BELT_REAL(0)) && (observer->gone < BELT_REAL(1)));
-    FUZZ_CHECK((controller->present.level >= BELT_REAL(0)) &&
-               (controller->present.level <= line->level_capacity));
-    FUZZ_CHECK(fuzz_is_finite(controller->present.congestion));
-    FUZZ_CHECK((controller->estimator.level >= BELT_REAL(0)) &&
-               (controller->estimator.level <= line->level_capacity));
-    FUZZ_CHECK(fuzz_is_finite(controller->estimator.disturbance));
+    FUZZ_CHECK((controller->model.present.level >= BELT_REAL(0)) &&
+               (controller->model.present.level <= line->level_capacity));
+    FUZZ_CHECK(fuzz_is_finite(controller->model.present.congestion));
+    FUZZ_CHECK((controller->model.estimator.level >= BELT_REAL(0)) &&
+               (controller->model.estimator.level <= line->level_capacity));
+    FUZZ_CHECK(fuzz_is_finite(controller->model.estimator.disturbance));
     FUZZ_CHECK(fuzz_is_finite(controller->supervisor.bump));
     const belt_prediction_t *prediction = &controller->prediction;
-    FUZZ_CHECK((prediction->inlet_level >= BELT_REAL(0)) &&
-               (prediction->inlet_level <= line->level_capacity));
-    FUZZ_CHECK(fuzz_is_finite(prediction->inlet_arrival));
+    FUZZ_CHECK((prediction->inlet.level >= BELT_REAL(0)) &&
+               (prediction->inlet.level <= line->level_capacity));
+    FUZZ_CHECK(fuzz_is_finite(prediction->inlet.arrival));
     FUZZ_CHECK(fuzz_is_finite(prediction->inlet_rework));
 }

@@ -65,7 +65,7 @@ static const belt_real_t *profile(fuzz_input_t *input, const belt_controller_t *
                                   belt_real_t *memory) {
     const belt_real_t even = fuzz_real(input, BELT_REAL(1));
     const belt_real_t odd = fuzz_real(input, BELT_REAL(1));
-    for (uint32_t i = 0; i <= controller->line.node_count; ++i) {
+    for (uint32_t i = 0; i <= controller->model.line.node_count; ++i) {
         memory[i] = ((i & 1u) == 0u) ? even : odd;
     }
     return memory;

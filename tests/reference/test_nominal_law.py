@@ -102,7 +102,7 @@ def test_impossible_lines_are_refused(name, value):
         replace(Line(), **{name: value})
 
 
-@pytest.mark.parametrize("loss_rate", [(), (1.0, np.nan), (1.0, -0.1)])
+@pytest.mark.parametrize("loss_rate", [(), (1.0, np.nan), (1.0, -np.inf)])
 def test_impossible_loss_profiles_are_refused(loss_rate):
     with pytest.raises(ValueError, match="loss_rate"):
         Line(loss_rate=loss_rate)

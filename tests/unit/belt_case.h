@@ -73,8 +73,8 @@ static inline void assert_nothing_is_fed(void) {
 /** Sum of the densities of all cells. */
 static inline double on_belt(void) {
     double sum = 0.0;
-    for (uint32_t i = 0; i < controller.line.cell_slots; ++i) {
-        sum += (double)controller.observer.density[i];
+    for (uint32_t i = 0; i < controller.model.line.cell_slots; ++i) {
+        sum += (double)controller.model.observer.density[i];
     }
     return sum;
 }

@@ -10,10 +10,7 @@
 #include "unity.h"
 
 static belt_config_t config;
-static belt_line_t line;
-static belt_level_history_t history;
-static belt_observer_t observer;
-static belt_present_t present;
+static belt_model_t model;
 static belt_prediction_t prediction;
 
 /* --- what lies on the belt, and the levels before now --- */
@@ -51,24 +48,24 @@ typedef double profile_t(double);
 /** Lays density [over x] on the belt, levels [over time before now] into the window. */
 static inline void lay(profile_t *density, profile_t *level) {
     belt_real_t nodes[BELT_NODE_CAPACITY + 1];
-    belt_line_init(&line, &config);
-    for (uint32_t i = 0; i <= line.node_count; ++i) {
-        nodes[i] = BELT_REAL(density((double)line.spacing * i));
+    belt_line_init(&model.line, &config);
+    for (uint32_t i = 0; i <= model.line.node_count; ++i) {
+        nodes[i] = BELT_REAL(density((double)model.line.spacing * i));
     }
-    belt_observer_init(&observer);
-    belt_observer_assume(&observer, &line, nodes);
-    belt_level_history_init(&history, &config);
-    for (uint32_t i = history.length; i > 0u; --i) {
-        belt_level_history_push(&history, BELT_REAL(level((double)config.period * (i - 1u))));
+    belt_observer_init(&model.observer);
+    belt_observer_assume(&model.observer, &model.line, nodes);
+    belt_level_history_init(&model.history, &config);
+    for (uint32_t i = model.history.length; i > 0u; --i) {
+        belt_level_history_push(&model.history, BELT_REAL(level((double)config.period * (i - 1u))));
     }
-    memset(&present, 0, sizeof present);
-    present.level = BELT_REAL(level(0.0));
-    present.congestion = belt_level_history_congestion(&history);
+    memset(&model.present, 0, sizeof model.present);
+    model.present.level = BELT_REAL(level(0.0));
+    model.present.congestion = belt_level_history_congestion(&model.history);
 }
 
 static inline void march(void) {
     memset(&prediction, 0xFF, sizeof prediction);
-    belt_predictor_march(&prediction, &line, &history, &observer, &present, config.prediction);
+    belt_predictor_march(&prediction, &model);
 }
 
 /* The finest line of these tests; the presets have room for it. */
@@ -202,9 +199,9 @@ static inline future_t future_of(profile_t *density, profile_t *past) {
 
 /** The greatest difference between march and future, each of its own size. */
 static inline double distance(const future_t *future) {
-    double worst = fabs((double)prediction.inlet_level - future->level);
-    worst = fmax(worst, fabs((double)prediction.inlet_arrival - future->arrival));
-    worst = fmax(worst, fabs((double)prediction.inlet_congestion - future->congestion));
+    double worst = fabs((double)prediction.inlet.level - future->level);
+    worst = fmax(worst, fabs((double)prediction.inlet.arrival - future->arrival));
+    worst = fmax(worst, fabs((double)prediction.inlet.congestion - future->congestion));
     worst = fmax(worst, fabs((double)prediction.inlet_survival - future->survival));
     return fmax(worst, fabs((double)prediction.inlet_rework - future->rework));
 }

@@ -12,7 +12,7 @@
 static inline size_t stride_at(size_t byte) {
     const size_t ring = offsetof(belt_snapshot_t, state) + offsetof(belt_level_history_t, level) -
                         offsetof(belt_level_history_t, base);
-    const bool is_in_ring = (byte >= ring) && (byte < ring + sizeof controller.history.level);
+    const bool is_in_ring = (byte >= ring) && (byte < ring + sizeof controller.model.history.level);
     if (sizeof(belt_snapshot_t) <= 8192u) {
         return 1u;
     }
@@ -44,7 +44,7 @@ static inline void seal(belt_snapshot_t *slot) {
 
 /** Whether two controllers know the same. */
 static inline bool know_the_same(const belt_controller_t *a, const belt_controller_t *b) {
-    return (memcmp(&a->history, &b->history, BELT_STATE_SIZE) == 0) &&
+    return (memcmp(&a->model.history, &b->model.history, BELT_STATE_SIZE) == 0) &&
            (a->config.level_setpoint == b->config.level_setpoint) &&
            (memcmp(&a->law, &b->law, sizeof a->law) == 0);
 }

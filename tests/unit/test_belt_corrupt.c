@@ -19,13 +19,13 @@ typedef struct {
 static const block_t sealed[] = {
     {"law", AT(law), AT(law) + sizeof(belt_nominal_law_t)},
     {"limits", AT(limits), AT(limits) + sizeof(belt_limits_t)},
-    {"estimator gains", AT(estimator_gains), AT(prediction_kind)},
-    {"prediction kind", AT(prediction_kind), AT(line)},
-    {"line", AT(line), AT(line) + offsetof(belt_line_t, loss_mean)},
-    {"node_count", AT(line.node_count), AT(line.node_count) + sizeof(uint32_t)},
-    {"cell_slots", AT(line.cell_slots), AT(line.cell_slots) + sizeof(uint32_t)},
-    {"loss_is_uniform", AT(line.loss_is_uniform), AT(line.loss_is_uniform) + sizeof(bool)},
-    {"history's constants", AT(history), AT(history.window_sum)},
+    {"estimator gains", AT(model.estimator_gains), AT(model.history)},
+    {"line", AT(model.line), AT(model.line) + offsetof(belt_line_t, loss_mean)},
+    {"node_count", AT(model.line.node_count), AT(model.line.node_count) + sizeof(uint32_t)},
+    {"cell_slots", AT(model.line.cell_slots), AT(model.line.cell_slots) + sizeof(uint32_t)},
+    {"loss_is_uniform", AT(model.line.loss_is_uniform),
+     AT(model.line.loss_is_uniform) + sizeof(bool)},
+    {"history's constants", AT(model.history), AT(model.history.window_sum)},
     {"supervisor", AT(supervisor), AT(supervisor) + sizeof(belt_supervisor_t)},
     {"command", AT(command), AT(command) + sizeof(belt_command_t)},
     {"seal of the command", AT(command_seal), AT(command_seal) + sizeof(uint32_t)},
@@ -71,25 +71,25 @@ static void test_index_or_share_out_of_its_range_is_corrupt(void) {
     static belt_controller_t well;
     begin_well();
     well = controller;
-    controller.history.newest = controller.history.length;
+    controller.model.history.newest = controller.model.history.length;
     assert_corrupt("newest");
     controller = well;
-    controller.observer.outlet = controller.line.cell_slots;
+    controller.model.observer.outlet = controller.model.line.cell_slots;
     assert_corrupt("outlet");
     const belt_real_t shares[] = {BELT_REAL(1), BELT_REAL(-1e-30), BELT_REAL(NAN),
                                   BELT_REAL(INFINITY)};
     for (size_t i = 0; i < sizeof shares / sizeof shares[0]; ++i) {
         controller = well;
-        controller.observer.gone = shares[i];
+        controller.model.observer.gone = shares[i];
         assert_corrupt("gone");
     }
 }
 
 static void test_corrupt_stays_corrupt_until_init_even_if_the_bit_flips_back(void) {
     begin_well();
-    flip(AT(line), 3u);
+    flip(AT(model.line), 3u);
     assert_corrupt("line");
-    flip(AT(line), 3u);
+    flip(AT(model.line), 3u);
     for (int i = 0; i < 10; ++i) {
         assert_corrupt("line");
         TEST_ASSERT_FALSE(belt_is_running(&controller));
@@ -158,7 +158,7 @@ static void test_bits_of_the_belt_leave_with_the_material(void) {
     belt_command_t of_well;
     (void)begin_at_rest();
     well = controller;
-    controller.observer.density[10] *= BELT_REAL(2); /* a bit of the exponent */
+    controller.model.observer.density[10] *= BELT_REAL(2); /* a bit of the exponent */
     double worst = 0.0;
     double last = 0.0;
     for (int i = 0; i < 220; ++i) { /* one dead time is 212 periods */

@@ -116,7 +116,7 @@ static void test_without_estimator_the_last_good_level_stands_in(void) {
     (void)step_level(0.26);
     for (int i = 0; i < 50; ++i) {
         (void)step_blind();
-        TEST_ASSERT_TRUE(controller.present.level == BELT_REAL(0.26));
+        TEST_ASSERT_TRUE(controller.model.present.level == BELT_REAL(0.26));
     }
 }
 
@@ -128,17 +128,17 @@ static void test_with_estimator_the_model_goes_on(void) {
     steps_level(0.3, 3u);
     /* The belt holds one dead time, 212 periods, of inflow; then the buffer empties, e-fold in 1 s. */
     steps_blind(212u);
-    const double level = (double)controller.present.level;
+    const double level = (double)controller.model.present.level;
     /* Half the level of material on 20 cells at most is off by a cell. */
     TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.3, level);
     steps_blind(400u);
-    TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.3 * exp(-1.0), (double)controller.present.level);
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.3 * exp(-1.0), (double)controller.model.present.level);
 }
 
 static void test_level_beyond_the_ends_counts_as_the_nearer_end(void) {
     steps_level(0.05, 20u);
     (void)step_level(-0.1);
-    TEST_ASSERT_TRUE(controller.present.level == BELT_REAL(0));
+    TEST_ASSERT_TRUE(controller.model.present.level == BELT_REAL(0));
     TEST_ASSERT_EQUAL(BELT_MODE_AUTOMATIC, command.mode);
 }
 
@@ -146,10 +146,10 @@ static void test_level_that_stays_elsewhere_is_believed_after_ten_samples(void) 
     steps_level(0.1, 20u);
     for (int i = 1; i < 10; ++i) {
         assert_bits(BELT_ERROR_LEVEL_STEP, BELT_INPUT_REJECTED, step_level(0.5));
-        TEST_ASSERT_TRUE(controller.present.level == BELT_REAL(0.1));
+        TEST_ASSERT_TRUE(controller.model.present.level == BELT_REAL(0.1));
     }
     assert_bits(0u, BELT_OK, step_level(0.5));
-    TEST_ASSERT_TRUE(controller.present.level == BELT_REAL(0.5));
+    TEST_ASSERT_TRUE(controller.model.present.level == BELT_REAL(0.5));
 }
 
 static void test_sample_every_fifth_period_is_no_stale_one(void) {

@@ -96,7 +96,8 @@ static void test_two_controllers_do_not_influence_each_other(void) {
         TEST_ASSERT_EQUAL(status, belt_step(&alone, &measurement, &of_alone));
         TEST_ASSERT_TRUE(command.inlet_flux == of_alone.inlet_flux);
     }
-    TEST_ASSERT_TRUE(memcmp(&controller.observer, &alone.observer, sizeof alone.observer) == 0);
+    TEST_ASSERT_TRUE(memcmp(&controller.model.observer, &alone.model.observer,
+                            sizeof alone.model.observer) == 0);
 }
 
 static void test_nothing_is_written_outside_the_structs(void) {

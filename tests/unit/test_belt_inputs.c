@@ -25,9 +25,9 @@ static void test_first_level_fills_the_whole_window(void) {
     TEST_ASSERT_EQUAL(BELT_OK, step_level(0.25));
     TEST_ASSERT_EQUAL(BELT_MODE_AUTOMATIC, command.mode);
     /* 0.25 over 0.2 s: a quantum a level and six roundings. */
-    TEST_ASSERT_DOUBLE_WITHIN(6 * EPSILON, 0.05, (double)controller.present.congestion);
-    TEST_ASSERT_DOUBLE_WITHIN(8 * EPSILON, 0.25,
-                              (double)belt_level_history_at(&controller.history, BELT_REAL(80)));
+    TEST_ASSERT_DOUBLE_WITHIN(6 * EPSILON, 0.05, (double)controller.model.present.congestion);
+    TEST_ASSERT_DOUBLE_WITHIN(
+        8 * EPSILON, 0.25, (double)belt_level_history_at(&controller.model.history, BELT_REAL(80)));
 }
 
 static void test_second_level_is_one_of_many(void) {
@@ -35,7 +35,7 @@ static void test_second_level_is_one_of_many(void) {
     TEST_ASSERT_EQUAL(BELT_OK, step_level(0.5));
     /* Half a period of 0.25 more. */
     TEST_ASSERT_DOUBLE_WITHIN(8 * EPSILON, 0.05 + 0.5 * 0.0025 * 0.25,
-                              (double)controller.present.congestion);
+                              (double)controller.model.present.congestion);
 }
 
 static void test_lost_level_is_said_and_the_last_one_stands_in(void) {
@@ -44,7 +44,7 @@ static void test_lost_level_is_said_and_the_last_one_stands_in(void) {
     TEST_ASSERT_EQUAL(BELT_INPUT_REJECTED, belt_step(&controller, &measurement, &command));
     TEST_ASSERT_EQUAL(BELT_MODE_HOLD, command.mode);
     TEST_ASSERT_EQUAL_HEX32(BELT_ERROR_LEVEL_MISSING, command.error_bits);
-    TEST_ASSERT_TRUE(controller.present.level == BELT_REAL(0.25));
+    TEST_ASSERT_TRUE(controller.model.present.level == BELT_REAL(0.25));
 }
 
 /* --- what is fed reaches the belt --- */
@@ -94,7 +94,7 @@ static void test_measured_outlet_flux_is_taken_as_density(void) {
     (void)step_level(0.25);
     /* 0.5 at 4/1.05 m/s. */
     TEST_ASSERT_DOUBLE_WITHIN(8 * EPSILON, 0.5 * 1.05 / 4.0,
-                              (double)controller.observer.outlet_density);
+                              (double)controller.model.observer.outlet_density);
 }
 
 static void test_refused_outlet_flux_leaves_the_observers_own(void) {
@@ -156,8 +156,8 @@ static void test_without_estimator_a_sound_line_gets_the_papers_bits_whatever_el
         TEST_ASSERT_EQUAL(BELT_OK, status);
         TEST_ASSERT_EQUAL(status, step());
         TEST_ASSERT_TRUE(real_bits(command.inlet_flux) == real_bits(of_stated.inlet_flux));
-        TEST_ASSERT_TRUE(controller.estimator.disturbance == BELT_REAL(0));
-        TEST_ASSERT_TRUE(controller.present.level == measurement.level);
+        TEST_ASSERT_TRUE(controller.model.estimator.disturbance == BELT_REAL(0));
+        TEST_ASSERT_TRUE(controller.model.present.level == measurement.level);
     }
 }
 
@@ -201,13 +201,13 @@ static void test_estimator_believes_the_models_outlet_flux_and_not_the_measured_
     steps_level(0.25, 20u);
     other = controller;
     (void)step_level(0.25);
-    const belt_estimator_t by_model = controller.estimator;
+    const belt_estimator_t by_model = controller.model.estimator;
     controller = other;
     measurement.present |= BELT_HAS_OUTLET_FLUX;
     measurement.outlet_flux = BELT_REAL(0.1); /* a third of the model's */
     (void)step_level(0.25);
-    TEST_ASSERT_TRUE(controller.estimator.level == by_model.level);
-    TEST_ASSERT_TRUE(controller.estimator.disturbance == by_model.disturbance);
+    TEST_ASSERT_TRUE(controller.model.estimator.level == by_model.level);
+    TEST_ASSERT_TRUE(controller.model.estimator.disturbance == by_model.disturbance);
 }
 
 int main(void) {

@@ -53,24 +53,26 @@ static void assert_late_is_as_good(uint32_t stride) {
     /* Levels on straight lines: nothing but a quantum of rounding each is lost. */
     for (uint32_t age = 0; age <= 80u; ++age) {
         TEST_ASSERT_DOUBLE_WITHIN(
-            8 * EPSILON, (double)belt_level_history_at(&controller.history, (belt_real_t)age),
-            (double)belt_level_history_at(&late.history, (belt_real_t)age));
+            8 * EPSILON, (double)belt_level_history_at(&controller.model.history, (belt_real_t)age),
+            (double)belt_level_history_at(&late.model.history, (belt_real_t)age));
     }
-    TEST_ASSERT_DOUBLE_WITHIN(8 * EPSILON, (double)controller.present.congestion,
-                              (double)late.present.congestion);
+    TEST_ASSERT_DOUBLE_WITHIN(8 * EPSILON, (double)controller.model.present.congestion,
+                              (double)late.model.present.congestion);
     /* The speed is that in the middle of a stretch instead of each period's: measured 3e-4 of a
      * spacing, 4e-4 of a density and 2e-6 of a level; one period forgotten would be 0.1 spacing. */
-    TEST_ASSERT_DOUBLE_WITHIN(1e-3,
-                              (double)controller.observer.gone + (double)controller.observer.outlet,
-                              (double)late.observer.gone + (double)late.observer.outlet);
+    TEST_ASSERT_DOUBLE_WITHIN(
+        1e-3, (double)controller.model.observer.gone + (double)controller.model.observer.outlet,
+        (double)late.model.observer.gone + (double)late.model.observer.outlet);
     for (uint32_t place = 0; place <= 20u; ++place) {
         const belt_real_t at = (belt_real_t)place;
         TEST_ASSERT_DOUBLE_WITHIN(
-            1e-3, (double)belt_observer_density_at(&controller.observer, &controller.line, at),
-            (double)belt_observer_density_at(&late.observer, &late.line, at));
+            1e-3,
+            (double)belt_observer_density_at(&controller.model.observer, &controller.model.line,
+                                             at),
+            (double)belt_observer_density_at(&late.model.observer, &late.model.line, at));
     }
-    TEST_ASSERT_DOUBLE_WITHIN(1e-5, (double)controller.prediction.inlet_level,
-                              (double)late.prediction.inlet_level);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-5, (double)controller.prediction.inlet.level,
+                              (double)late.prediction.inlet.level);
 }
 
 static void test_late_steps_know_what_steps_on_time_know(void) {
@@ -115,10 +117,14 @@ static void test_beyond_the_cap_the_level_is_doubted(void) {
 
 /** All that the belt knows, but for what every step writes. */
 static bool stands_still(const belt_controller_t *before) {
-    return (memcmp(&before->history, &controller.history, sizeof controller.history) == 0) &&
-           (memcmp(&before->observer, &controller.observer, sizeof controller.observer) == 0) &&
-           (memcmp(&before->estimator, &controller.estimator, sizeof controller.estimator) == 0) &&
-           (memcmp(&before->present, &controller.present, sizeof controller.present) == 0) &&
+    return (memcmp(&before->model.history, &controller.model.history,
+                   sizeof controller.model.history) == 0) &&
+           (memcmp(&before->model.observer, &controller.model.observer,
+                   sizeof controller.model.observer) == 0) &&
+           (memcmp(&before->model.estimator, &controller.model.estimator,
+                   sizeof controller.model.estimator) == 0) &&
+           (memcmp(&before->model.present, &controller.model.present,
+                   sizeof controller.model.present) == 0) &&
            (memcmp(&before->supervisor, &controller.supervisor, sizeof controller.supervisor) ==
             0) &&
            (before->command.inlet_flux == controller.command.inlet_flux) &&
@@ -227,17 +233,17 @@ static void test_late_step_corrects_the_estimate_once_however_many_stretches_it_
     before = controller;
     elapse(35u); /* four stretches of a node spacing, 10 periods each */
     (void)step_blind();
-    const double expected = (double)controller.estimator.level;
+    const double expected = (double)controller.model.estimator.level;
     controller = before;
     (void)step_level(0.4);
-    const belt_estimator_gains_t *gains = &controller.estimator_gains;
-    const double old = (double)before.estimator.difference;
+    const belt_estimator_gains_t *gains = &controller.model.estimator_gains;
+    const double old = (double)before.model.estimator.difference;
     const double difference = old + (double)gains->filter * (0.4 - expected - old);
     const double gained = (double)gains->disturbance * difference;
     /* Six roundings of numbers below 0.4, of which the disturbance takes its gain's share. */
     TEST_ASSERT_DOUBLE_WITHIN(6 * EPSILON, gained,
-                              (double)controller.estimator.disturbance -
-                                  (double)before.estimator.disturbance);
+                              (double)controller.model.estimator.disturbance -
+                                  (double)before.model.estimator.disturbance);
 }
 
 int main(void) {

@@ -6,29 +6,26 @@
 #include "unity.h"
 
 static belt_config_t config;
-static belt_line_t line;
+static belt_model_t model;
 static belt_nominal_law_t law;
-static belt_level_history_t history;
-static belt_present_t present;
 static belt_prediction_t prediction;
 
 /** The line at rest at the set-point as a finished march would see it, without loss and rework on
  * the way; tests change one thing each. */
 static void rest_at_setpoint(void) {
     const rest_t rest = line_at_rest(&config);
-    belt_line_init(&line, &config);
+    belt_line_init(&model.line, &config);
     belt_nominal_law_init(&law, &config);
-    belt_level_history_init(&history, &config);
-    belt_level_history_begin(&history, config.level_setpoint);
-    memset(&present, 0, sizeof present);
-    present.level = config.level_setpoint;
-    present.congestion = belt_level_history_congestion(&history);
+    belt_level_history_init(&model.history, &config);
+    belt_level_history_begin(&model.history, config.level_setpoint);
+    memset(&model.present, 0, sizeof model.present);
+    model.present.level = config.level_setpoint;
+    model.present.congestion = belt_level_history_congestion(&model.history);
     memset(&prediction, 0, sizeof prediction);
-    prediction.inlet_level = config.level_setpoint;
-    prediction.inlet_arrival = BELT_REAL(rest.dead_time);
-    prediction.inlet_slowness = BELT_REAL(rest.slowness);
-    prediction.inlet_congestion = BELT_REAL(rest.congestion);
-    prediction.inlet_tail = config.level_setpoint;
+    prediction.inlet.level = config.level_setpoint;
+    prediction.inlet.arrival = BELT_REAL(rest.dead_time);
+    prediction.inlet.congestion = BELT_REAL(rest.congestion);
+    prediction.inlet.tail = config.level_setpoint;
     prediction.inlet_survival = BELT_REAL(1);
 }
 
@@ -40,8 +37,13 @@ void setUp(void) {
 void tearDown(void) {
 }
 
+static void arrive_at_slowness(double slowness) {
+    prediction.inlet.congestion = BELT_REAL((slowness / (double)config.processing_time - 1.0) *
+                                            (double)config.congestion_scale);
+}
+
 static double solve(void) {
-    return (double)belt_command_solve(&prediction, &line, &history, &law, &present);
+    return (double)belt_command_solve(&prediction, &model, &law);
 }
 
 /** The law in double, by the firmware's own function: it has its own tests. */
@@ -115,7 +117,7 @@ static void test_a_slower_arrival_needs_a_denser_feed(void) {
      * differ by 1/0.265*0.53, which counts for loss; so none here. */
     config.loss_rate[0] = BELT_REAL(0);
     rest_at_setpoint();
-    prediction.inlet_slowness = BELT_REAL(0.53);
+    arrive_at_slowness(0.53);
     TEST_ASSERT_DOUBLE_WITHIN(2 * steep(), 0.6 * 0.53 / 0.265, solve());
 }
 
@@ -124,38 +126,38 @@ static void test_a_slower_arrival_needs_a_denser_feed(void) {
 static void test_level_is_that_of_half_a_hold_later(void) {
     /* Off the set-point the level moves on by what the law itself lets arrive, less the service,
      * for half a period. */
-    prediction.inlet_level = BELT_REAL(0.25);
+    prediction.inlet.level = BELT_REAL(0.25);
     const double later = 0.25 + HALF_HOLD * (0.5 * nominal(0.25) - 0.25);
-    prediction.inlet_tail = BELT_REAL(0.25);
+    prediction.inlet.tail = BELT_REAL(0.25);
     TEST_ASSERT_DOUBLE_WITHIN(steep(), nominal(later), solve());
 }
 
 static void test_half_a_hold_is_longer_at_the_outlet_of_a_slower_line(void) {
     config.loss_rate[0] = BELT_REAL(0);
     rest_at_setpoint();
-    prediction.inlet_level = BELT_REAL(0.25);
-    prediction.inlet_tail = BELT_REAL(0.25);
-    prediction.inlet_slowness = BELT_REAL(0.53);
+    prediction.inlet.level = BELT_REAL(0.25);
+    prediction.inlet.tail = BELT_REAL(0.25);
+    arrive_at_slowness(0.53);
     const double later = 0.25 + 2.0 * HALF_HOLD * (0.5 * nominal(0.25) - 0.25);
     TEST_ASSERT_DOUBLE_WITHIN(2 * steep(), 2.0 * nominal(later), solve());
 }
 
 static void test_feeding_speed_is_that_of_the_middle_of_the_hold(void) {
     /* Now 0.3 enters the window and 0.1 leaves it: slower by P*0.2 each second. */
-    belt_level_history_begin(&history, BELT_REAL(0.1));
+    belt_level_history_begin(&model.history, BELT_REAL(0.1));
     const double slower = 0.265 + 0.25 * HALF_HOLD * (0.3 - 0.1);
     TEST_ASSERT_DOUBLE_WITHIN(steep(), 0.6 * 0.265 / slower, solve());
 }
 
 static void test_arriving_speed_is_that_of_half_a_hold_later(void) {
-    prediction.inlet_tail = BELT_REAL(0.1);
+    prediction.inlet.tail = BELT_REAL(0.1);
     const double slower = 0.265 + 0.25 * HALF_HOLD * (0.3 - 0.1);
     TEST_ASSERT_DOUBLE_WITHIN(steep(), 0.6 * slower / 0.265, solve());
 }
 
 static void test_loss_counts_the_longer_way_of_what_is_fed_later(void) {
     /* Twice as slow at arrival: what is fed half a hold later arrives a whole hold later. */
-    prediction.inlet_slowness = BELT_REAL(0.53);
+    arrive_at_slowness(0.53);
     const double survival = 1.0 - 1.0 * (2.0 * HALF_HOLD - HALF_HOLD);
     TEST_ASSERT_DOUBLE_WITHIN(2 * steep(), 2.0 * 0.6 / survival, solve());
 }
@@ -171,8 +173,8 @@ static void test_rework_is_that_of_half_a_hold_further_in(void) {
 
 /** A flow into the buffer that the model does not know. */
 static void disturb(double flow) {
-    present.disturbance = BELT_REAL(flow);
-    present.disturbance_flux = BELT_REAL(flow / 0.5);
+    model.present.disturbance = BELT_REAL(flow);
+    model.present.disturbance_flux = BELT_REAL(flow / 0.5);
 }
 
 static void test_disturbance_need_not_be_fed(void) {
@@ -197,8 +199,8 @@ static void test_more_disturbance_than_is_wanted_leaves_nothing_to_feed(void) {
 
 static void test_level_half_a_hold_later_is_that_of_law_and_disturbance(void) {
     /* alpha*(law - disturbance/alpha) + disturbance: as if there were none, but for what is fed. */
-    prediction.inlet_level = BELT_REAL(0.25);
-    prediction.inlet_tail = BELT_REAL(0.25);
+    prediction.inlet.level = BELT_REAL(0.25);
+    prediction.inlet.tail = BELT_REAL(0.25);
     const double later = 0.25 + HALF_HOLD * (0.5 * nominal(0.25) - 0.25);
     disturb(0.125);
     TEST_ASSERT_DOUBLE_WITHIN(steep(), nominal(later) - 0.25, solve());
@@ -206,27 +208,31 @@ static void test_level_half_a_hold_later_is_that_of_law_and_disturbance(void) {
 
 static void test_level_half_a_hold_later_takes_each_of_the_two_for_itself(void) {
     /* Where less than nothing would be wanted they are not each other's opposite: so one alone. */
-    prediction.inlet_level = BELT_REAL(0.25);
-    prediction.inlet_tail = BELT_REAL(0.25);
-    present.disturbance = BELT_REAL(0.125);
+    prediction.inlet.level = BELT_REAL(0.25);
+    prediction.inlet.tail = BELT_REAL(0.25);
+    model.present.disturbance = BELT_REAL(0.125);
     const double filled = 0.25 + HALF_HOLD * (0.5 * nominal(0.25) + 0.125 - 0.25);
     TEST_ASSERT_DOUBLE_WITHIN(steep(), nominal(filled), solve());
-    present.disturbance = BELT_REAL(0);
-    present.disturbance_flux = BELT_REAL(0.25);
+    model.present.disturbance = BELT_REAL(0);
+    model.present.disturbance_flux = BELT_REAL(0.25);
     const double unfed = 0.25 + HALF_HOLD * (0.5 * (nominal(0.25) - 0.25) - 0.25);
     TEST_ASSERT_DOUBLE_WITHIN(steep(), nominal(unfed) - 0.25, solve());
 }
 
 static void test_law_less_the_disturbance_is_wanted_and_never_less_than_nothing(void) {
-    present.disturbance_flux = BELT_REAL(0.25);
-    const belt_real_t at_setpoint = belt_command_wanted(&law, &present, config.level_setpoint);
+    model.present.disturbance_flux = BELT_REAL(0.25);
+    const belt_real_t at_setpoint =
+        belt_command_wanted(&law, &model.present, config.level_setpoint);
     TEST_ASSERT_TRUE(at_setpoint == law.setpoint_flux - BELT_REAL(0.25));
-    present.disturbance_flux = law.setpoint_flux;
-    TEST_ASSERT_TRUE(belt_command_wanted(&law, &present, config.level_setpoint) == BELT_REAL(0));
-    present.disturbance_flux = BELT_REAL(1);
-    TEST_ASSERT_TRUE(belt_command_wanted(&law, &present, config.level_setpoint) == BELT_REAL(0));
-    present.disturbance_flux = BELT_REAL(NAN);
-    TEST_ASSERT_TRUE(belt_command_wanted(&law, &present, config.level_setpoint) == BELT_REAL(0));
+    model.present.disturbance_flux = law.setpoint_flux;
+    TEST_ASSERT_TRUE(belt_command_wanted(&law, &model.present, config.level_setpoint) ==
+                     BELT_REAL(0));
+    model.present.disturbance_flux = BELT_REAL(1);
+    TEST_ASSERT_TRUE(belt_command_wanted(&law, &model.present, config.level_setpoint) ==
+                     BELT_REAL(0));
+    model.present.disturbance_flux = BELT_REAL(NAN);
+    TEST_ASSERT_TRUE(belt_command_wanted(&law, &model.present, config.level_setpoint) ==
+                     BELT_REAL(0));
 }
 
 /* --- all together --- */

@@ -63,7 +63,7 @@ static void test_dimensions_lie_between_a_millionth_and_a_million(void) {
     }
     assert_limits(BELT_CONNECTIVITY, BELT_REAL(1e-6), BELT_REAL(1));
     assert_limits(BELT_REWORK_RATE, BELT_REAL(0), BELT_REAL(1e6));
-    assert_limits(BELT_LOSS_RATE, BELT_REAL(0), BELT_REAL(1e6));
+    assert_limits(BELT_LOSS_RATE, BELT_REAL(-1e6), BELT_REAL(1e6));
 }
 
 static void test_limits_of_the_law_follow_from_the_line(void) {

@@ -13,21 +13,25 @@ void tearDown(void) {
 static void move_on(int count) {
     for (int i = 0; i < count; ++i) {
         const belt_passage_t passage = {.travel = BELT_REAL(0.25),
-                                        .duration = BELT_REAL(0.25 * 0.25 * (double)line.spacing),
+                                        .duration =
+                                            BELT_REAL(0.25 * 0.25 * (double)model.line.spacing),
                                         .fed_density = BELT_REAL(0.125 * ((i * 5) % 8))};
-        belt_observer_advance(&observer, &line, &passage);
+        belt_observer_advance(&model.observer, &model.line, &passage);
     }
 }
 
 /** Parts on the belt. */
 static double on_belt(void) {
-    const double gone = (double)observer.gone;
-    double sum = (1.0 - gone) * (double)belt_observer_rest_of_outlet(&observer);
-    for (uint32_t i = 1; i < line.node_count; ++i) {
-        sum += (double)observer.density[belt_observer_behind(&line, observer.outlet, i)];
+    const double gone = (double)model.observer.gone;
+    double sum = (1.0 - gone) * (double)belt_observer_rest_of_outlet(&model.observer);
+    for (uint32_t i = 1; i < model.line.node_count; ++i) {
+        sum +=
+            (double)
+                model.observer.density[belt_observer_behind(&model.line, model.observer.outlet, i)];
     }
-    const uint32_t open = belt_observer_behind(&line, observer.outlet, line.node_count);
-    return (double)line.spacing * (sum + gone * (double)observer.density[open]);
+    const uint32_t open =
+        belt_observer_behind(&model.line, model.observer.outlet, model.line.node_count);
+    return (double)model.line.spacing * (sum + gone * (double)model.observer.density[open]);
 }
 
 static void test_without_service_every_part_arrives_wherever_the_outlet_is(void) {
@@ -42,7 +46,7 @@ static void test_without_service_every_part_arrives_wherever_the_outlet_is(void)
             march();
             /* In 0.5 s a millionth of a level of 0.5 is served. */
             TEST_ASSERT_DOUBLE_WITHIN(rounding() + 3e-7, 0.5 * on_belt(),
-                                      (double)prediction.inlet_level);
+                                      (double)prediction.inlet.level);
         }
     }
 }
@@ -56,16 +60,16 @@ static void test_level_follows_what_is_still_to_leave(void) {
     move_on(27);
     march();
     double level = 0.0;
-    for (uint32_t i = 0; i < prediction.count; ++i) {
-        level += 0.5 * (double)line.spacing * (double)prediction.width[i] *
+    for (uint32_t i = 0; i < prediction.inlet.count; ++i) {
+        level += 0.5 * (double)model.line.spacing * (double)prediction.width[i] *
                  (double)prediction.outlet_density[i];
         TEST_ASSERT_DOUBLE_WITHIN(rounding() + 3e-7, level, (double)prediction.level[i + 1u]);
     }
 }
 
 static future_t found(void) {
-    const future_t future = {(double)prediction.inlet_level, (double)prediction.inlet_arrival,
-                             (double)prediction.inlet_congestion, (double)prediction.inlet_survival,
+    const future_t future = {(double)prediction.inlet.level, (double)prediction.inlet.arrival,
+                             (double)prediction.inlet.congestion, (double)prediction.inlet_survival,
                              (double)prediction.inlet_rework};
     return future;
 }
@@ -78,11 +82,11 @@ static void test_profile_of_nearly_equal_values_is_the_uniform_loss_wherever_the
         lay(wave, level_falling);
         for (int i = 0; i < 40; ++i) {
             move_on(1);
-            line.loss_is_uniform = false;
+            model.line.loss_is_uniform = false;
             march();
             const future_t profile = found();
             const double slope = (double)prediction.inlet_rework_slope;
-            line.loss_is_uniform = true;
+            model.line.loss_is_uniform = true;
             march();
             /* Two second-order ways to the same: a twentieth of loss a pair, its square over 12. */
             TEST_ASSERT_DOUBLE_WITHIN(0.05 * 0.05 / 12.0 + rounding(), 0.0, distance(&profile));

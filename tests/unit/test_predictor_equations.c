@@ -55,7 +55,7 @@ static double error_at_constant_speed(uint16_t nodes) {
     lay(wave, level_constant);
     march();
     const future_t future = future_of(wave, level_constant);
-    return fabs((double)prediction.inlet_level - future.level) +
+    return fabs((double)prediction.inlet.level - future.level) +
            fabs((double)prediction.inlet_rework - future.rework);
 }
 
@@ -76,13 +76,13 @@ static void test_odd_and_even_node_counts_agree_to_second_order(void) {
         config.node_count = (uint16_t)(nodes + 1);
         lay(wave, level_falling);
         march();
-        const double odd = (double)prediction.inlet_level;
+        const double odd = (double)prediction.inlet.level;
         config.node_count = nodes;
         lay(wave, level_falling);
         march();
         /* The bound of above, for the level alone. */
         TEST_ASSERT_DOUBLE_WITHIN(0.02 / ((double)nodes * nodes) + 8 * EPSILON, odd,
-                                  (double)prediction.inlet_level);
+                                  (double)prediction.inlet.level);
     }
 }
 
@@ -107,15 +107,15 @@ static void test_profile_of_nearly_equal_values_is_close_to_the_uniform_loss(voi
         config.node_count = nodes;
         lay(wave, level_falling);
         march();
-        const future_t uniform = {(double)prediction.inlet_level, (double)prediction.inlet_arrival,
-                                  (double)prediction.inlet_congestion,
+        const future_t uniform = {(double)prediction.inlet.level, (double)prediction.inlet.arrival,
+                                  (double)prediction.inlet.congestion,
                                   (double)prediction.inlet_survival,
                                   (double)prediction.inlet_rework};
         config.loss_count = 2;
         config.loss_rate[1] = real_next(config.loss_rate[0], BELT_REAL(2));
         lay(wave, level_falling);
         march();
-        TEST_ASSERT_FALSE(line.loss_is_uniform);
+        TEST_ASSERT_FALSE(model.line.loss_is_uniform);
         /* Two second-order ways to the same: a twentieth of loss a pair, its square over 12. */
         TEST_ASSERT_DOUBLE_WITHIN(0.05 * 0.05 / 12.0 + rounding(), 0.0, distance(&uniform));
     }
@@ -162,10 +162,10 @@ static double heavy(double x) {
 static void test_predicted_level_ends_at_the_capacity_where_the_buffer_spills(void) {
     lay(heavy, level_constant);
     march();
-    for (uint32_t k = 0; k <= prediction.count; ++k) {
+    for (uint32_t k = 0; k <= prediction.inlet.count; ++k) {
         TEST_ASSERT_TRUE(prediction.level[k] <= config.level_capacity);
     }
-    TEST_ASSERT_TRUE(prediction.inlet_level == config.level_capacity);
+    TEST_ASSERT_TRUE(prediction.inlet.level == config.level_capacity);
 }
 
 int main(void) {

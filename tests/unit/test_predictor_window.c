@@ -16,20 +16,20 @@ static void test_held_congestion_keeps_the_pace(void) {
     config.speed_window = BELT_REAL(0.05);
     lay(wave, level_falling);
     march();
-    const double pace = 0.25 * (1.0 + (double)present.congestion) * 0.1;
-    for (uint32_t i = 0; i < prediction.count; ++i) {
+    const double pace = 0.25 * (1.0 + (double)model.present.congestion) * 0.1;
+    for (uint32_t i = 0; i < prediction.inlet.count; ++i) {
         TEST_ASSERT_DOUBLE_WITHIN(rounding() * pace, pace, (double)prediction.pace[i]);
     }
-    TEST_ASSERT_DOUBLE_WITHIN(rounding(), 20.0 * pace, (double)prediction.inlet_arrival);
-    TEST_ASSERT_DOUBLE_WITHIN(rounding(), (double)present.congestion,
-                              (double)prediction.inlet_congestion);
+    TEST_ASSERT_DOUBLE_WITHIN(rounding(), 20.0 * pace, (double)prediction.inlet.arrival);
+    TEST_ASSERT_DOUBLE_WITHIN(rounding(), (double)model.present.congestion,
+                              (double)prediction.inlet.congestion);
 }
 
-/** Integral of the predicted level over the window that ends at the last line. */
+/** Integral of the predicted level over the window that ends at the last model.line. */
 static double window_of_predicted_levels(void) {
-    const double from = (double)prediction.inlet_arrival - (double)config.speed_window;
+    const double from = (double)prediction.inlet.arrival - (double)config.speed_window;
     double sum = 0.0;
-    for (uint32_t i = 0; i < prediction.count; ++i) {
+    for (uint32_t i = 0; i < prediction.inlet.count; ++i) {
         const double start = (double)prediction.arrival[i];
         const double end = (double)prediction.arrival[i + 1u];
         const double first = fmax(start, from);
@@ -50,11 +50,11 @@ static void test_window_that_slid_past_now_uses_predicted_levels_only(void) {
         config.speed_window = BELT_REAL(windows[i]);
         lay(wave, level_falling);
         march();
-        TEST_ASSERT_TRUE((double)prediction.inlet_arrival > windows[i]);
+        TEST_ASSERT_TRUE((double)prediction.inlet.arrival > windows[i]);
         /* Trapezoids against midpoints: h^2/8 of Q'', h = 0.015 s, Q'' up to 8 for a wave of 0.2 at
          * 3*4/s; and the congestion is a difference of slownesses. */
         TEST_ASSERT_DOUBLE_WITHIN(0.015 * 0.015 + rounding(), window_of_predicted_levels(),
-                                  (double)prediction.inlet_congestion);
+                                  (double)prediction.inlet.congestion);
     }
 }
 
@@ -64,11 +64,11 @@ static void test_window_longer_than_the_dead_time_still_uses_recorded_levels(voi
     config.node_count = 80;
     lay(wave, level_falling);
     march();
-    const double recorded = 1.0 - (double)prediction.inlet_arrival;
+    const double recorded = 1.0 - (double)prediction.inlet.arrival;
     const double truth = recorded * level_falling(0.5 * recorded) + (window_of_predicted_levels());
     /* As above; the difference of slownesses counts ten times. */
     TEST_ASSERT_DOUBLE_WITHIN(0.015 * 0.015 + 10 * rounding(), truth,
-                              (double)prediction.inlet_congestion);
+                              (double)prediction.inlet.congestion);
 }
 
 static void test_window_shorter_than_the_first_stretch_holds_the_present_level_there(void) {
@@ -77,15 +77,15 @@ static void test_window_shorter_than_the_first_stretch_holds_the_present_level_t
     config.speed_window = config.period;
     lay(wave, level_falling);
     march();
-    const belt_real_t slowness = belt_line_slowness(&line, present.congestion);
-    TEST_ASSERT_TRUE(prediction.pace[0] == slowness * line.spacing);
+    const belt_real_t slowness = belt_line_slowness(&model.line, model.present.congestion);
+    TEST_ASSERT_TRUE(prediction.pace[0] == slowness * model.line.spacing);
 }
 
 static void test_level_that_leaves_the_window_at_the_inlet_is_told(void) {
     config.node_count = 80;
     lay(wave, level_constant);
     march();
-    const double then = (double)prediction.inlet_arrival - 0.2;
+    const double then = (double)prediction.inlet.arrival - 0.2;
     uint32_t i = 0;
     while ((double)prediction.arrival[i + 1u] < then) {
         ++i;
@@ -93,7 +93,7 @@ static void test_level_that_leaves_the_window_at_the_inlet_is_told(void) {
     /* Taken in the middle of the last stretch, half of up to three spacings before the end. */
     const double slope = 2.0 * 4.0 * 0.25;
     TEST_ASSERT_DOUBLE_WITHIN(slope * 0.02, (double)prediction.level[i],
-                              (double)prediction.inlet_tail);
+                              (double)prediction.inlet.tail);
 }
 
 int main(void) {

@@ -67,7 +67,7 @@ static void test_without_rework_the_margin_is_the_greatest_number(void) {
     TEST_ASSERT_TRUE(safety.sharper.margin == BELT_REAL_MAX);
     TEST_ASSERT_TRUE(safety.proposition.holds && safety.sharper.holds);
     assert_all_finite();
-    controller.present.disturbance_flux = BELT_REAL(1.5); /* the law wants nothing either */
+    controller.model.present.disturbance_flux = BELT_REAL(1.5); /* the law wants nothing either */
     assess();
     TEST_ASSERT_TRUE(safety.proposition.left == safety.proposition.right);
     TEST_ASSERT_TRUE(safety.sharper.left == safety.sharper.right);
@@ -79,7 +79,7 @@ static void test_least_flux_is_that_of_the_highest_level_to_come(void) {
     begin_at(0.5); /* falls below the set-point while the empty belt passes */
     assess();
     const double now = (double)belt_nominal_law_flux(&controller.law, BELT_REAL(0.5));
-    TEST_ASSERT_TRUE(controller.prediction.inlet_level < BELT_REAL(0.3));
+    TEST_ASSERT_TRUE(controller.prediction.inlet.level < BELT_REAL(0.3));
     assert_near(now, (double)safety.proposition.flux_min, ROUNDING); /* as the paper has it */
     assert_near(0.6, (double)safety.sharper.flux_min, ROUNDING);
     for (size_t i = 0; i <= 20u; ++i) {
@@ -87,7 +87,7 @@ static void test_least_flux_is_that_of_the_highest_level_to_come(void) {
     }
     begin_loaded(0.2, density);
     assess();
-    const belt_real_t last = controller.prediction.inlet_level;
+    const belt_real_t last = controller.prediction.inlet.level;
     TEST_ASSERT_TRUE(last > BELT_REAL(0.35));
     const double then = (double)belt_nominal_law_flux(&controller.law, last);
     assert_near(then, (double)safety.proposition.flux_min, ROUNDING);
@@ -101,7 +101,7 @@ static void assert_falling(const double *levels, size_t count) {
         (void)step_level(levels[i]);
     }
     assess();
-    const double lowest = (double)controller.prediction.inlet_level; /* below Q*, then up to it */
+    const double lowest = (double)controller.prediction.inlet.level; /* below Q*, then up to it */
     TEST_ASSERT_TRUE(lowest < 0.3);
     const double slope = (double)config.speed_window / (double)config.congestion_scale;
     const double falling = 1.0 + slope * (0.5 - lowest) / crowded(lowest);
@@ -162,7 +162,7 @@ static void test_material_that_is_known_moves_on_and_what_is_fed_follows(void) {
     }
     begin_loaded(0.1, density);
     assess();
-    const belt_real_t last = controller.prediction.inlet_level;
+    const belt_real_t last = controller.prediction.inlet.level;
     TEST_ASSERT_TRUE(last < BELT_REAL(0.3));
     const double fed = 0.25 * crowded(0.3) * (double)belt_nominal_law_flux(&controller.law, last);
     const double at_once = rework_moved(density, fed, 0.0);
@@ -187,7 +187,7 @@ static void test_belt_denser_than_what_is_fed_counts_as_it_is(void) {
     begin_loaded(0.0, density);
     assess();
     /* nothing is lost, the belt's own rework adds 0.1 %, and the level comes down to Q* again */
-    const double last = (double)controller.prediction.inlet_level;
+    const double last = (double)controller.prediction.inlet.level;
     const double falling = 1.0 + 0.2 * (last - 0.3);
     TEST_ASSERT_TRUE(last > 0.35);
     assert_near(0.5, (double)safety.sharper.density_max, 2e-3);
@@ -215,17 +215,17 @@ static void test_jump_is_what_the_first_command_will_put_on_the_belt(void) {
 
 static void test_disturbance_changes_what_the_law_wants(void) {
     begin_at(0.0);
-    controller.present.disturbance_flux = BELT_REAL(0.1);
+    controller.model.present.disturbance_flux = BELT_REAL(0.1);
     assess();
     assert_near(0.5, (double)safety.proposition.flux_min, ROUNDING);
     assert_near(0.5, (double)safety.sharper.flux_min, ROUNDING);
     assert_near(0.25 * crowded(0.3) * 1.1, (double)safety.sharper.density_max, ROUNDING);
     const double before = (double)safety.proposition.density_max;
-    controller.present.disturbance_flux = BELT_REAL(-0.1);
+    controller.model.present.disturbance_flux = BELT_REAL(-0.1);
     assess();
     assert_near(0.7, (double)safety.proposition.flux_min, ROUNDING);
     assert_near(before * 1.3 / 1.2, (double)safety.proposition.density_max, ROUNDING);
-    controller.present.disturbance_flux = BELT_REAL(0.7); /* more than the set-point needs */
+    controller.model.present.disturbance_flux = BELT_REAL(0.7); /* more than the set-point needs */
     assess();
     TEST_ASSERT_TRUE(safety.proposition.left == BELT_REAL_MAX);
     TEST_ASSERT_TRUE(safety.sharper.right == BELT_REAL(0));

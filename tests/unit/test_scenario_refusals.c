@@ -109,18 +109,15 @@ static void test_unknown_word_is_refused_with_the_known_ones(void) {
 
 static void test_list_with_a_hole_is_refused(void) {
     static const refusal_t refusals[] = {
-        {"1,", "value 2 of the list is empty"},
-        {",1", "value 1 of the list is empty"},
-        {"1,,2", "value 2 of the list is empty"},
-        {"1, ,2", "value 2 of the list is empty"},
-        {",", "value 1 of the list is empty"},
-        {"1 2", "\"1 2\" is not a decimal number"},
-        {"1, x", "\"x\" is not a decimal number"},
-        {"1, -1", "must be at least 0"},
-        {"1; 2", ""},
+        {"1,", "value 2 of the list is empty"},    {",1", "value 1 of the list is empty"},
+        {"1,,2", "value 2 of the list is empty"},  {"1, ,2", "value 2 of the list is empty"},
+        {",", "value 1 of the list is empty"},     {"1 2", "\"1 2\" is not a decimal number"},
+        {"1, x", "\"x\" is not a decimal number"}, {"1; 2", ""},
     };
+    static const refusal_t below_0[] = {{"1, -1", "must be at least 0"}};
     refuse_values("line", "loss_rate", refusals, COUNT_OF(refusals));
     refuse_values("initial", "density", refusals, COUNT_OF(refusals));
+    refuse_values("initial", "density", below_0, COUNT_OF(below_0));
 }
 
 static void test_line_that_is_no_ini_as_both_readers_know_it_is_refused(void) {

@@ -170,17 +170,17 @@ static void shift(size_t more, size_t less, uint32_t amount) {
 
 #define IN_SLOT(field)                                                                             \
     (offsetof(belt_snapshot_t, state) + offsetof(belt_controller_t, field) -                       \
-     offsetof(belt_controller_t, history))
+     offsetof(belt_controller_t, model.history))
 
 static void test_valid_slot_with_a_mode_that_is_none_is_refused_though_its_sum_fits(void) {
     static belt_snapshot_t well;
     take();
     well = slots[0];
-    shift(IN_SLOT(history.length), IN_SLOT(history.quantum), 0x00100000u);
+    shift(IN_SLOT(model.history.length), IN_SLOT(model.history.quantum), 0x00100000u);
     seal(&slots[0]);
     TEST_ASSERT_EQUAL(BELT_NO_SNAPSHOT, restore(0u));
     slots[0] = well;
-    shift(IN_SLOT(history.length), IN_SLOT(seal), 0u - 0x00100000u);
+    shift(IN_SLOT(model.history.length), IN_SLOT(seal), 0u - 0x00100000u);
     seal(&slots[0]);
     TEST_ASSERT_EQUAL(BELT_NO_SNAPSHOT, restore(0u));
     slots[0] = well;

@@ -72,9 +72,10 @@ static void test_longer_stop_leaves_an_empty_belt_and_what_the_operator_said(voi
         TEST_ASSERT_EQUAL_HEX32(BELT_ERROR_HISTORY_SHORT, answer.error_bits);
         TEST_ASSERT_EQUAL(BELT_MODE_MANUAL, answer.mode);
         TEST_ASSERT_TRUE(answer.inlet_flux == BELT_REAL(0.7));
-        TEST_ASSERT_TRUE(belt_level_history_at(&restored.history, BELT_REAL(80)) ==
-                         belt_level_history_at(&restored.history, BELT_REAL(0)));
-        TEST_ASSERT_TRUE(restored.observer.density[restored.observer.outlet] == BELT_REAL(0));
+        TEST_ASSERT_TRUE(belt_level_history_at(&restored.model.history, BELT_REAL(80)) ==
+                         belt_level_history_at(&restored.model.history, BELT_REAL(0)));
+        TEST_ASSERT_TRUE(restored.model.observer.density[restored.model.observer.outlet] ==
+                         BELT_REAL(0));
         for (uint32_t period = 1; period < 82u; ++period) {
             (void)step_restored(0.125, &answer);
             TEST_ASSERT_EQUAL_HEX32(BELT_ERROR_HISTORY_SHORT, answer.error_bits);
@@ -89,11 +90,11 @@ static void test_longer_stop_keeps_the_disturbance(void) {
         (void)step_level(0.3); /* never less, although nothing much is fed: something flows in */
     }
     take();
-    const belt_real_t disturbance = controller.estimator.disturbance;
+    const belt_real_t disturbance = controller.model.estimator.disturbance;
     TEST_ASSERT_TRUE(fabs((double)disturbance) > 0.01);
     TEST_ASSERT_EQUAL(BELT_SNAPSHOT_OLD, restore(UINT32_MAX));
     (void)step_restored(0.3, &answer);
-    TEST_ASSERT_TRUE(restored.present.disturbance == disturbance);
+    TEST_ASSERT_TRUE(restored.model.present.disturbance == disturbance);
 }
 
 int main(void) {

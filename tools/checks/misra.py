@@ -20,6 +20,7 @@ OPTIONS = [
     "--quiet",
     "--std=c99",
     "--addon=misra",
+    "-UBELT_LINE_LAWS",
     "--suppress=missingIncludeSystem",
     "--template={file}:{line}: {id}",
 ]

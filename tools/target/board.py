@@ -75,6 +75,7 @@ def build(target, optimization="O2", defines=(), folder=None, programs=("belt_se
     more = [f"-D{name}={value}" for name, value in defines]
     if not plain:
         more.append(f"-DCMAKE_C_FLAGS_RELWITHDEBINFO=-{optimization} -g")
+        more.append(f"-DBELT_SMALL_START_UP={'ON' if optimization == 'O2' else 'OFF'}")
         if target in HOSTS:
             more += [f"-DCMAKE_C_COMPILER={HOSTS[target]}", "-DBELT_BUILD_TESTS=OFF"]
     # A folder's name says how it is configured; ninja sees what has changed since.

@@ -103,20 +103,20 @@ void exchange_measurement(exchange_t *exchange, belt_measurement_t *measurement,
 
 void exchange_state(exchange_t *exchange, belt_controller_t *controller, belt_command_t *command) {
     belt_prediction_t *const prediction = &controller->prediction;
-    belt_observer_t *const observer = &controller->observer;
+    belt_observer_t *const observer = &controller->model.observer;
     exchange_real(exchange, &command->inlet_flux);
     command->mode = (belt_mode_t)as_word(exchange, (uint32_t)command->mode);
     exchange_word(exchange, &command->error_bits);
     exchange_real(exchange, &controller->config.level_setpoint);
-    exchange_real(exchange, &prediction->inlet_level);
-    exchange_real(exchange, &prediction->inlet_arrival);
+    exchange_real(exchange, &prediction->inlet.level);
+    exchange_real(exchange, &prediction->inlet.arrival);
     exchange_real(exchange, &prediction->inlet_survival);
-    exchange_real(exchange, &controller->estimator.disturbance);
-    exchange_real(exchange, &controller->present.level);
+    exchange_real(exchange, &controller->model.estimator.disturbance);
+    exchange_real(exchange, &controller->model.present.level);
     exchange_real(exchange, &controller->gate.level_quality);
     exchange_word(exchange, &observer->outlet);
     exchange_real(exchange, &observer->gone);
-    reals(exchange, observer->density, controller->line.cell_slots);
-    reals(exchange, observer->step, controller->line.cell_slots);
-    reals(exchange, observer->cut, controller->line.cell_slots);
+    reals(exchange, observer->density, controller->model.line.cell_slots);
+    reals(exchange, observer->step, controller->model.line.cell_slots);
+    reals(exchange, observer->cut, controller->model.line.cell_slots);
 }

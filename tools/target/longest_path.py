@@ -31,14 +31,15 @@ MODES = ["law", "full", "profile", "late"]
 # that is no less). n: node_count, places: densities that are measured, periods: what a step makes
 # up for, size: bytes of the largest sealed block.
 BOUNDS = [
-    ("follow_line", "while (passed <", "periods", ""),
+    ("belt_model_follow", "while (passed <", "periods", ""),
     ("record_level", "for (uint32_t i = 1; i < periods", "periods - 1", "periods - 1"),
     ("gate_density", "for (uint32_t i = 0; i <= line->node_count", "places", ""),
-    ("belt_integrity_sum", "for (; done + 4u * sizeof sum <= size", "size // 16", ""),
-    ("belt_integrity_sum", "for (; done < size", "3", ""),
+    ("belt_integrity_sum", "for (; i + 4u <= words", "size // 16", ""),
+    ("belt_integrity_sum", "for (; i < words", "3", ""),
     ("belt_observer_assume", "for (uint32_t i = 0; i < line->node_count", "n", ""),
+    ("belt_march_plain_pairs", "for (uint32_t i = 0; i < pairs", "(n - 1) // 2", ""),
+    ("leave_plain", "for (int i = 0; i < 2", "2", ""),
     ("march_pairs", "for (uint32_t i = 0; i < pairs", "(n - 1) // 2", ""),
-    ("march_pairs_forward", "for (uint32_t i = 0; i < pairs", "(n - 1) // 2", ""),
     # The window's end only ever moves forward, over at most all lines between the stretches.
     ("belt_march_predicted_level", "while ((line + 1u", "n // 2 + 1", "n // 2 + 1"),
     ("belt_fast_forward", "for (uint32_t i = 0; i < passed->count", "n // 2 + 1", ""),
@@ -48,7 +49,7 @@ BOUNDS = [
 ]
 
 # What a mode never enters, by the functions of the sources.
-UNIFORM = {"march_pairs_forward", "age_profile", "forward", "belt_fast_forward"}
+UNIFORM = {"march_pairs", "leave_any", "age_profile", "while_they_pass", "belt_fast_forward"}
 NEVER = {
     "law": UNIFORM
     | {"begin", "step_without_level", "belt_observer_assume", "belt_estimator_correct"},
@@ -56,7 +57,7 @@ NEVER = {
     "profile": set(),
     "late": set(),
 }
-SEALED = "offsetof(belt_controller_t, line) + offsetof(belt_line_t, loss)"
+SEALED = "offsetof(belt_controller_t, model) + offsetof(belt_line_t, loss)"
 
 
 class Estimate:

@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: MIT */
+#include "march_stretch.h"
+
+#include "fast_forward.h"
+#include "march_step.h"
+
+/** The second cell's share of a stretch. */
+static inline belt_real_t second_share(const belt_stretch_t *stretch) {
+    return (stretch->width[1] > BELT_REAL(0))
+               ? stretch->width[1] / (stretch->width[0] + stretch->width[1])
+               : BELT_REAL(0);
+}
+
+/** Two cells leave one after the other; `share` is the second one's of the stretch. */
+static inline belt_leaving_t one_after_the_other(belt_real_t first, belt_real_t second,
+                                                 belt_real_t share) {
+    const belt_leaving_t leaving = {first + share * (second - first),
+                                    BELT_HALF * share * (BELT_REAL(1) - share) * (first - second)};
+    return leaving;
+}
+
+/** Plain line: survival and rework are carried along. */
+static inline belt_leaving_t leave_plain(belt_carried_t *carried, const belt_line_t *line,
+                                         const belt_stretch_t *stretch, belt_real_t pace) {
+    belt_real_t left[2];
+    for (int i = 0; i < 2; ++i) {
+        const belt_cell_factors_t factors = belt_carried_factors(line, stretch->width[i], pace);
+        left[i] = belt_carried_density(carried, &factors, stretch->density[i]);
+    }
+    return one_after_the_other(left[0], left[1], second_share(stretch));
+}
+
+/** What happens to material now at `place` while the first `count` stretches pass. */
+static belt_transfer_t while_they_pass(const belt_prediction_t *p, const belt_line_t *line,
+                                       uint32_t count, belt_real_t place) {
+    const belt_passed_t passed = {p->width, p->pace, p->outlet_density, count};
+    return belt_fast_forward(line, &passed, place);
+}
+
+static void keep(belt_carried_t *carried, const belt_transfer_t *transfer) {
+    carried->survival = transfer->survival;
+    carried->rework = transfer->rework / transfer->survival;
+}
+
+/** Any line: the stretch's middle is moved past all before it; its two cells are told apart by the loss
+ * between them. */
+static belt_leaving_t leave_any(belt_prediction_t *prediction, const belt_line_t *line,
+                                const belt_stretch_t *stretch, belt_real_t pace) {
+    belt_front_t *front = &prediction->inlet;
+    const belt_real_t half = BELT_HALF * (stretch->width[0] + stretch->width[1]);
+    const belt_real_t middle = front->place + half;
+    const belt_real_t share = second_share(stretch);
+    const belt_real_t density =
+        stretch->density[0] + share * (stretch->density[1] - stretch->density[0]);
+    belt_transfer_t transfer = while_they_pass(prediction, line, front->count, middle);
+    const belt_real_t left = transfer.survival * density + transfer.rework;
+    belt_fast_forward_last(&transfer, line, half, pace, left);
+    keep(&front->carried, &transfer);
+
+    const belt_real_t loss = BELT_HALF * belt_line_loss(line, (uint32_t)(int32_t)middle) * pace;
+    const belt_real_t less = loss * stretch->width[1]; /* the first cell has less of the way */
+    const belt_real_t more = loss * stretch->width[0];
+    const belt_real_t first = transfer.survival * stretch->density[0] *
+                              (BELT_REAL(1) + less * (BELT_REAL(1) + BELT_HALF * less));
+    const belt_real_t second = transfer.survival * stretch->density[1] *
+                               (BELT_REAL(1) - more * (BELT_REAL(1) - BELT_HALF * more));
+    return one_after_the_other(first + transfer.rework, second + transfer.rework, share);
+}
+
+void belt_march_stretch(belt_prediction_t *prediction, const belt_model_t *model,
+                        const belt_stretch_t *stretch) {
+    const belt_line_t *line = &model->line;
+    belt_front_t *front = &prediction->inlet;
+    const belt_real_t width = stretch->width[0] + stretch->width[1];
+    const belt_real_t pace = belt_march_pace_ahead(prediction, model, front, width);
+    const belt_leaving_t leaving = belt_line_is_plain(line)
+                                       ? leave_plain(&front->carried, line, stretch, pace)
+                                       : leave_any(prediction, line, stretch, pace);
+    belt_march_pass(prediction, model, front, width, pace, leaving);
+}
+
+void belt_march_to_inlet(belt_prediction_t *prediction, const belt_model_t *model) {
+    const belt_line_t *line = &model->line;
+    if (!belt_line_is_plain(line)) { /* the march knows survival and rework of the last middle */
+        const uint32_t last = prediction->inlet.count - 1u;
+        belt_transfer_t transfer =
+            while_they_pass(prediction, line, last, (belt_real_t)line->node_count);
+        belt_fast_forward_last(&transfer, line, prediction->width[last], prediction->pace[last],
+                               prediction->outlet_density[last]);
+        keep(&prediction->inlet.carried, &transfer);
+    }
+}
