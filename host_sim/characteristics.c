@@ -114,21 +114,21 @@ static double aged(double density, double loss, double gain) {
 static double age_parcels(characteristics_t *self, const plant_t *plant, double reach,
                           double left) {
     const line_t *line = plant->setup.line;
-    const double gain = line->rework_rate * left * plant->step;
     const double outlet = self->travel - line->belt_length;
     const double ahead = 0.5 * reach;
+    const double dt = plant->step;
     double lost = 0.0;
     double place = fmax(seen_at(self, 0)->travel - outlet - ahead, 0.0);
-    double loss = plant->step * profile_at(&line->loss_rate, place, line->belt_length);
+    double loss = dt * profile_at(&line->loss_rate, place, line->belt_length);
     for (size_t i = 0; i < self->count; ++i) {
         parcel_t *parcel = parcel_at(self, i);
         const double older = parcel->older;
-        parcel->older = aged(older, loss, gain * (line->belt_length - place));
+        parcel->older = aged(older, loss, dt * line_rework(line, place, left));
         const double lost_older = loss * 0.5 * (older + parcel->older);
         const double end = fmax(newer_travel(self, i) - outlet - ahead, 0.0);
-        loss = plant->step * profile_at(&line->loss_rate, end, line->belt_length);
+        loss = dt * profile_at(&line->loss_rate, end, line->belt_length);
         const double newer = parcel->newer;
-        parcel->newer = aged(newer, loss, gain * (line->belt_length - end));
+        parcel->newer = aged(newer, loss, dt * line_rework(line, end, left));
         lost += 0.5 * (end - place) * (lost_older + loss * 0.5 * (newer + parcel->newer));
         place = end;
     }
@@ -157,11 +157,10 @@ static void advance(void *belt, plant_t *plant, double flux, bool fresh) {
     const double outlet = self->travel - line->belt_length;
     const double before = next_to_leave(self, outlet, reach) / reach;
     const double loss = profile_at(&line->loss_rate, 0.0, line->belt_length);
-    const double left = before * (1.0 + 0.5 * dt * (line->rework_rate * line->belt_length - loss));
+    const double left = before + 0.5 * dt * (line_rework(line, 0.0, before) - loss * before);
 
     plant->account.lost += age_parcels(self, plant, reach, left);
-    plant->account.reworked +=
-        0.5 * line->rework_rate * line->belt_length * line->belt_length * left * dt;
+    plant->account.reworked += dt * line_rework_of_belt(line, left);
     self->travel += reach;
     const double inflow = line->connectivity * left * reach + dt * plant->disturbance;
     const double middle = plant->level + 0.5 * (inflow - dt * plant_service(plant, plant->level));

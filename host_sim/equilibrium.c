@@ -1,15 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "equilibrium.h"
 
-#include "plant.h"
-
 #define STEPS 6400
 
 /** rho_x of the stationary belt. */
 static double density_slope(const line_t *line, double speed, double x, double density,
                             double outlet_density) {
     const double loss = profile_at(&line->loss_rate, x, line->belt_length);
-    const double rework = line->rework_rate * (line->belt_length - x) * outlet_density;
+    const double rework = line_rework(line, x, outlet_density);
     return (loss * density - rework) / speed;
 }
 
@@ -18,7 +16,8 @@ equilibrium_t equilibrium_of(const line_t *line, double level_setpoint) {
     rest.congestion = level_setpoint * line->speed_window;
     const double speed = line_speed(line, rest.congestion);
     rest.dead_time = line->belt_length / speed;
-    rest.outlet_flux = level_setpoint / (line->connectivity * line->service_time);
+    rest.outlet_flux =
+        line_service(line, level_setpoint, line->service_rate_max) / line->connectivity;
     rest.outlet_density = rest.outlet_flux / speed;
     const double dx = line->belt_length / STEPS;
     double density = rest.outlet_density;

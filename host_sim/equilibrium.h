@@ -9,14 +9,14 @@
 
 typedef struct {
     double congestion;     /**< R* = Q* tau [parts s]. */
-    double dead_time;      /**< P D (1 + R*) [s]. */
-    double outlet_flux;    /**< Q* / (alpha service_time) [parts/s]. */
+    double dead_time;      /**< D over the speed at R* [s]. */
+    double outlet_flux;    /**< service at Q*, over alpha [parts/s]. */
     double inlet_flux;     /**< the constant flux that holds Q* [parts/s]. */
     double inlet_density;  /**< [parts/m]. */
     double outlet_density; /**< [parts/m]. */
 } equilibrium_t;
 
-/** Integrates the stationary belt, speed*rho_x = C*rho - A*(D - x)*rho(0), from the outlet. */
+/** Integrates the stationary belt, speed*rho_x = C*rho - rework(x, rho(0)), from the outlet. */
 equilibrium_t equilibrium_of(const line_t *line, double level_setpoint);
 
 #endif

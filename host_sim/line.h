@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * line.h - the numbers of one conveyor and buffer, as the host programs hold them.
+ * line.h - the numbers of one conveyor and buffer, as the host programs hold them, and the laws that go
+ * with them where one is simulated.
  *
  * The scenario reader fills one for the model the controller believes in and one for the plant
  * that is simulated; the two differ when a scenario overrides a key of [line] in [plant].
@@ -35,5 +36,21 @@ typedef struct {
 
 /** Value of a profile at `place` in [0, length], linear between its equally spaced values. */
 double profile_at(const profile_t *profile, double place, double length);
+
+/* The laws of the simulated line; line_laws.h has them, and how another line has others. */
+
+/** omega at a congestion >= 0: 1/(P*(1 + R/congestion_scale)) [m/s]. */
+double line_speed(const line_t *line, double congestion);
+
+/** What the buffer gives away at a level, when its greatest rate is `rate_max`: min(level/service_time,
+ * rate_max) [parts/s]. */
+double line_service(const line_t *line, double level, double rate_max);
+
+/** Density put back at x in [0, belt_length] while `outlet_density` v leaves: A*(D - x)*v
+ * [parts/(m s)]. */
+double line_rework(const line_t *line, double x, double outlet_density);
+
+/** Its integral over the belt: A*D^2/2*v [parts/s]. */
+double line_rework_of_belt(const line_t *line, double outlet_density);
 
 #endif

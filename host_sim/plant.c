@@ -3,12 +3,8 @@
 
 #include <math.h>
 
-double line_speed(const line_t *line, double congestion) {
-    return 1.0 / (line->processing_time * (1.0 + congestion / line->congestion_scale));
-}
-
 double plant_service(const plant_t *plant, double level) {
-    return fmin(level / plant->setup.line->service_time, plant->service_rate_max);
+    return line_service(plant->setup.line, level, plant->service_rate_max);
 }
 
 bool plant_create(plant_t *plant, const plant_setup_t *setup, const scheme_t *scheme) {

@@ -7,7 +7,8 @@
  *     phi   = omega(R)*rho(0,t),     omega(R) = 1/(P*(1 + R/congestion_scale))
  *
  * d is a disturbance: a flow into the buffer that comes from elsewhere; one that is negative takes
- * away what there is. d and mu may change from period to period.
+ * away what there is. d and mu may change from period to period. Service, rework and speed are those
+ * of line.h: what stands above, unless the build has another line's laws.
  *
  * Two schemes. `characteristics` follows the material exactly and is the truth that the controller
  * is judged by; `upwind` is the paper's own first-order scheme. Neither shares a line or a
@@ -108,10 +109,7 @@ double plant_balance_error(const plant_t *plant);
  * level at which the service is taken. */
 void plant_serve(plant_t *plant, double left, double middle);
 
-/** omega at a congestion [m/s]. */
-double line_speed(const line_t *line, double congestion);
-
-/** min(level/service_time, mu) with the plant's mu of now [parts/s]. */
+/** What the buffer gives away at a level, with the plant's mu of now [parts/s]. */
 double plant_service(const plant_t *plant, double level);
 
 #endif

@@ -55,7 +55,7 @@ static void advance(void *belt, plant_t *plant, double flux, bool fresh) {
     for (size_t i = 0; i < self->cells; ++i) {
         const double x = (double)i * self->dx;
         const double moved = speed * (self->density[i + 1] - self->density[i]) / self->dx;
-        const double reworked = line->rework_rate * (line->belt_length - x) * left;
+        const double reworked = line_rework(line, x, left);
         const double lost = self->loss[i] * self->density[i];
         plant->account.reworked += dt * self->dx * reworked;
         plant->account.lost += dt * self->dx * lost;

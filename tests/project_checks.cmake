@@ -11,6 +11,10 @@ set(pytest_environment
     BELT_SIM=${builds}/host/belt_sim
     BELT_SIM_F64=${builds}/host-f64/belt_sim
     BELT_SIM_SANITIZE=${builds}/sanitize/belt_sim
+    BELT_SIM_PAPERS_LAWS=${builds}/host/belt_sim_papers_laws
+    BELT_SIM_NONLINEAR_REWORK=${builds}/host/belt_sim_nonlinear_rework
+    BELT_SIM_OTHER_LAWS=${builds}/host/belt_sim_other_laws
+    BELT_SIM_UNAWARE=${builds}/host/belt_sim_unaware
     BELT_REPLAY=${builds}/host/belt_replay
     BELT_REPLAY_F64=${builds}/host-f64/belt_replay
     BELT_WALK=${builds}/host/belt_walk
@@ -29,6 +33,7 @@ function(belt_add_pytest name)
 endfunction()
 belt_add_pytest(reference)
 belt_add_pytest(system)
+belt_add_pytest(laws)
 belt_add_pytest(target)
 belt_add_pytest(assurance)
 belt_add_pytest(checks)

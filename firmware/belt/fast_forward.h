@@ -20,18 +20,19 @@ typedef struct {
 
 /** The stretches of belt that the march has passed already, from the outlet on. */
 typedef struct {
-    const belt_real_t *width;          /**< of each, at most 2 [spacings]. */
-    const belt_real_t *pace;           /**< time each takes for one spacing [s]. */
-    const belt_real_t *outlet_density; /**< density each left with [parts/m]. */
-    uint32_t count;                    /**< how many. */
+    const belt_real_t *width;    /**< of each, at most 2 [spacings]. */
+    const belt_real_t *pace;     /**< time each takes for one spacing [s]. */
+    const belt_real_t *returned; /**< density put back while each left [parts/m]. */
+    uint32_t count;              /**< how many. */
 } belt_passed_t;
 
 /** Moves material from `place` [spacings from the outlet] on while all of `passed` leaves. */
 belt_transfer_t belt_fast_forward(const belt_line_t *line, const belt_passed_t *passed,
                                   belt_real_t place);
 
-/** Adds the last way, from `place` <= 2 spacings to the outlet at `pace`, while `left` leaves. */
+/** Adds the last way, from `place` <= 2 spacings to the outlet at `pace`, while `returned` is
+ * put back. */
 void belt_fast_forward_last(belt_transfer_t *transfer, const belt_line_t *line, belt_real_t place,
-                            belt_real_t pace, belt_real_t left);
+                            belt_real_t pace, belt_real_t returned);
 
 #endif

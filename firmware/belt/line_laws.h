@@ -47,8 +47,8 @@ static inline belt_real_t belt_law_rework(belt_real_t x, belt_real_t belt_length
     return rework_rate * (belt_length - x);
 }
 
-/** What of a density that leaves takes part in the rework [parts/m]: all of it. In the step, up to
- * node_count^2/8 times. */
+/** What of a density that leaves takes part in the rework [parts/m]: all of it. In the step, twice a
+ * cell and a few times more. */
 static inline belt_real_t belt_law_returned(belt_real_t outlet_density) {
     return outlet_density;
 }

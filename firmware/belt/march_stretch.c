@@ -30,16 +30,54 @@ static inline belt_leaving_t leave_plain(belt_carried_t *carried, const belt_lin
     return one_after_the_other(left[0], left[1], second_share(stretch));
 }
 
+/* What is put back while each stretch leaves, its mean over the stretch: of two cells that of each, since
+ * the law may bend. */
+#ifdef BELT_LINE_LAWS
+static inline const belt_real_t *returned_by(const belt_prediction_t *prediction) {
+    return prediction->returned;
+}
+
+static inline void put_back(belt_prediction_t *prediction, belt_real_t first, belt_real_t second,
+                            belt_real_t share) {
+    const belt_real_t of_first = belt_law_returned(first);
+    prediction->returned[prediction->inlet.count] =
+        of_first + share * (belt_law_returned(second) - of_first);
+}
+#else
+static inline const belt_real_t *returned_by(const belt_prediction_t *prediction) {
+    return prediction->outlet_density;
+}
+
+static inline void put_back(const belt_prediction_t *prediction, belt_real_t first,
+                            belt_real_t second, belt_real_t share) {
+    (void)prediction;
+    (void)first;
+    (void)second;
+    (void)share;
+}
+#endif
+
 /** What happens to material now at `place` while the first `count` stretches pass. */
 static belt_transfer_t while_they_pass(const belt_prediction_t *p, const belt_line_t *line,
                                        uint32_t count, belt_real_t place) {
-    const belt_passed_t passed = {p->width, p->pace, p->outlet_density, count};
+    const belt_passed_t passed = {p->width, p->pace, returned_by(p), count};
     return belt_fast_forward(line, &passed, place);
 }
 
 static void keep(belt_carried_t *carried, const belt_transfer_t *transfer) {
     carried->survival = transfer->survival;
     carried->rework = transfer->rework / transfer->survival;
+}
+
+/** What is put back while a stretch's middle is on its last way: of its outlet end, with the loss and the rework of
+ * that very way, which is found by going it once already. */
+static inline belt_real_t returned_on_the_last_way(const belt_line_t *line,
+                                                   const belt_transfer_t *before, belt_real_t way,
+                                                   belt_real_t pace, belt_real_t density) {
+    belt_transfer_t gone = *before;
+    belt_fast_forward_last(&gone, line, way, pace,
+                           belt_law_returned(before->survival * density + before->rework));
+    return belt_law_returned(gone.survival * density + gone.rework);
 }
 
 /** Any line: the stretch's middle is moved past all before it; its two cells are told apart by the loss
@@ -50,11 +88,10 @@ static belt_leaving_t leave_any(belt_prediction_t *prediction, const belt_line_t
     const belt_real_t half = BELT_HALF * (stretch->width[0] + stretch->width[1]);
     const belt_real_t middle = front->place + half;
     const belt_real_t share = second_share(stretch);
-    const belt_real_t density =
-        stretch->density[0] + share * (stretch->density[1] - stretch->density[0]);
     belt_transfer_t transfer = while_they_pass(prediction, line, front->count, middle);
-    const belt_real_t left = transfer.survival * density + transfer.rework;
-    belt_fast_forward_last(&transfer, line, half, pace, left);
+    const belt_real_t returned =
+        returned_on_the_last_way(line, &transfer, half, pace, stretch->density[0]);
+    belt_fast_forward_last(&transfer, line, half, pace, returned);
     keep(&front->carried, &transfer);
 
     const belt_real_t loss = BELT_HALF * belt_line_loss(line, (uint32_t)(int32_t)middle) * pace;
@@ -64,6 +101,7 @@ static belt_leaving_t leave_any(belt_prediction_t *prediction, const belt_line_t
                               (BELT_REAL(1) + less * (BELT_REAL(1) + BELT_HALF * less));
     const belt_real_t second = transfer.survival * stretch->density[1] *
                                (BELT_REAL(1) - more * (BELT_REAL(1) - BELT_HALF * more));
+    put_back(prediction, first + transfer.rework, second + transfer.rework, share);
     return one_after_the_other(first + transfer.rework, second + transfer.rework, share);
 }
 
@@ -86,7 +124,7 @@ void belt_march_to_inlet(belt_prediction_t *prediction, const belt_model_t *mode
         belt_transfer_t transfer =
             while_they_pass(prediction, line, last, (belt_real_t)line->node_count);
         belt_fast_forward_last(&transfer, line, prediction->width[last], prediction->pace[last],
-                               prediction->outlet_density[last]);
+                               returned_by(prediction)[last]);
         keep(&prediction->inlet.carried, &transfer);
     }
 }

@@ -10,6 +10,8 @@
 
 /** Stretches that a march passes: cells in pairs, at each end a pair or one cell. */
 #define BELT_STRETCH_CAPACITY (BELT_NODE_CAPACITY / 2 + 2)
+/** The same where the build has another line's laws; else one that nobody reads. */
+#define BELT_RETURNED_TABLE (BELT_LINE_HAS_LAWS * (BELT_STRETCH_CAPACITY - 1) + 1)
 
 /** Where the march stands: at a line between two stretches of belt, in the end at the inlet. Times are
  * from now. */
@@ -33,6 +35,8 @@ typedef struct {
     belt_real_t width[BELT_STRETCH_CAPACITY];       /**< of each stretch, at most 2 [spacings]. */
     belt_real_t pace[BELT_STRETCH_CAPACITY];        /**< time each takes for a spacing [s]. */
     belt_real_t outlet_density[BELT_STRETCH_CAPACITY]; /**< p2, its mean over each [parts/m]. */
+    belt_real_t returned[BELT_RETURNED_TABLE]; /**< what of it is put back, its mean, where a build
+                                                    has another line's laws [parts/m]. */
     uint32_t tail_line; /**< the line at or before the window's end, once that is predicted. */
     belt_front_t inlet; /**< where the march stands, in the end the inlet. */
 

@@ -91,9 +91,9 @@ static void look_ahead(outlook_t *outlook, belt_prediction_t *march,
     outlook->arriving = belt_command_wanted(&controller->law, &model->present, march->inlet.level);
     outlook->holding =
         belt_command_wanted(&controller->law, &model->present, controller->law.level_setpoint);
-    outlook->applies = (controller->config.prediction == BELT_PREDICT_CONGESTION) &&
-                       (model->present.congestion >= BELT_REAL(0)) &&
-                       !grows(&controller->config) &&
+    outlook->applies = (BELT_LINE_HAS_LAWS == 0) &&
+                       (controller->config.prediction == BELT_PREDICT_CONGESTION) &&
+                       (model->present.congestion >= BELT_REAL(0)) && !grows(&controller->config) &&
                        stays_below(march, model->line.level_capacity);
 }
 

@@ -46,7 +46,7 @@ typedef struct {
                              rework. */
     bool
         applies; /**< what both presuppose: BELT_PREDICT_CONGESTION, 0 <= Q < Qmax now and all along
-                       the prediction, no negative density, no loss rate below 0. */
+                       the prediction, no negative density, no loss rate below 0; and the paper's laws. */
     bool holds;  /**< applies, and left < right: U > 0 for all times to come. */
 } belt_promise_t;
 

@@ -85,6 +85,7 @@ PLANTED = [
     ("include_rules", "host_sim/plant.c", "#include <belt/belt.h>\n"),
     ("include_rules", "host_sim/plant.c", '#include "../firmware/belt/types.h"\n'),
     ("include_rules", "host_sim/plant.c", '#include "types.h"\n'),
+    ("include_rules", "host_sim/plant.c", "#include SIM_LINE_LAWS\n"),
     ("include_rules", "host_sim/trace.c", '#include "model.h"\n'),
     ("include_rules", "host_sim/model.h", '#include "plant.h"\n'),
     ("include_rules", "host_sim/check.c", '#include "belt/config.h"\n'),

@@ -43,10 +43,10 @@ static inline double level_setpoint(double ago) {
     return (double)config.level_setpoint;
 }
 
-typedef double profile_t(double);
+typedef double along_t(double);
 
 /** Lays density [over x] on the belt, levels [over time before now] into the window. */
-static inline void lay(profile_t *density, profile_t *level) {
+static inline void lay(along_t *density, along_t *level) {
     belt_real_t nodes[BELT_NODE_CAPACITY + 1];
     belt_line_init(&model.line, &config);
     for (uint32_t i = 0; i <= model.line.node_count; ++i) {
@@ -123,11 +123,25 @@ static inline double loss_at(double x) {
     return from + (place - piece) * ((double)config.loss_rate[piece + 1] - from);
 }
 
+/* The laws in double; of another line, tests/laws has them. */
+#ifdef SIM_LINE_LAWS
+#include "laws_case.h"
+#else
 static inline double service(double level) {
     return fmin(level / (double)config.service_time, (double)config.service_rate_max);
 }
 
-static inline double level_then(profile_t *past, int count, double time) {
+static inline double slowness_at(double congestion) {
+    return (double)config.processing_time * (1.0 + congestion / (double)config.congestion_scale);
+}
+
+/** Density put back at x in a second while v leaves. */
+static inline double rework_at(double x, double v) {
+    return (double)config.rework_rate * ((double)config.belt_length - x) * v;
+}
+#endif
+
+static inline double level_then(along_t *past, int count, double time) {
     if (time <= 0.0) {
         return past(-time);
     }
@@ -151,49 +165,46 @@ static inline void look_back(future_t *future, int count, double x, double expon
         const double place = x - (i + 0.5) * dx;
         const double time = fine.slowness[i] * dx;
         const double loss = loss_at(place) * time;
-        gained += (double)config.rework_rate * ((double)config.belt_length - place) *
-                  fine.outlet_density[i] * time * exp(-exponent - 0.5 * loss);
+        gained += rework_at(place, fine.outlet_density[i]) * time * exp(-exponent - 0.5 * loss);
         exponent += loss;
     }
     future->survival = exp(-exponent);
     future->rework = gained;
 }
 
-static inline future_t future_of(profile_t *density, profile_t *past) {
+static inline future_t future_of(along_t *density, along_t *past) {
     const double dx = (double)config.belt_length / FINE;
     const double alpha = (double)config.connectivity;
     const double tau = (double)config.speed_window;
-    const double slope = (double)config.processing_time / (double)config.congestion_scale;
     double congestion = 0.0;
     for (int i = 0; i < 1000; ++i) {
         congestion += past(tau * (i + 0.5) / 1000.0) * tau / 1000.0;
     }
-    double slowness = (double)config.processing_time + slope * congestion;
+    double slowness = slowness_at(congestion);
     future_t future = {0};
     fine.level[0] = past(0.0);
     fine.arrival[0] = 0.0;
     for (int i = 0; i < FINE; ++i) {
         const double level = fine.level[i];
         const double tail = level_then(past, i, fine.arrival[i] + 0.5 * dx * slowness - tau);
-        const double s = slowness * (1.0 + 0.5 * dx * slope * (level - tail));
+        const double s = slowness_at(congestion + 0.5 * dx * slowness * (level - tail));
         const double x = (i + 0.5) * dx;
         const double way = 0.5 * s * dx;
         const double before = (i > 0) ? fine.outlet_density[i - 1] : density(0.0);
-        look_back(&future, i, x, loss_at(0.25 * dx) * way,
-                  (double)config.rework_rate * ((double)config.belt_length - 0.25 * dx) * before *
-                      way);
+        look_back(&future, i, x, loss_at(0.25 * dx) * way, rework_at(0.25 * dx, before) * way);
         const double p2 = future.survival * density(x) + future.rework;
         const double middle = level + 0.5 * dx * (alpha * p2 - service(level) * s);
         fine.slowness[i] = s;
         fine.outlet_density[i] = p2;
         fine.arrival[i + 1] = fine.arrival[i] + s * dx;
         fine.level[i + 1] = level + dx * (alpha * p2 - service(middle) * s);
-        slowness += slope * (middle - tail) * s * dx;
+        congestion += (middle - tail) * s * dx;
+        slowness = slowness_at(congestion);
     }
     look_back(&future, FINE, (double)config.belt_length, 0.0, 0.0);
     future.level = fine.level[FINE];
     future.arrival = fine.arrival[FINE];
-    future.congestion = (slowness - (double)config.processing_time) / slope;
+    future.congestion = congestion;
     return future;
 }
 
@@ -206,7 +217,7 @@ static inline double distance(const future_t *future) {
     return fmax(worst, fabs((double)prediction.inlet_rework - future->rework));
 }
 
-static inline double error_on(uint16_t nodes, profile_t *density, profile_t *past) {
+static inline double error_on(uint16_t nodes, along_t *density, along_t *past) {
     config.node_count = nodes;
     lay(density, past);
     march();

@@ -70,7 +70,7 @@ def build(target, optimization="O2", defines=(), folder=None, programs=("belt_se
     preset = "host" if target in HOSTS else target
     plain = optimization == "O2" and not defines and target != "host-clang"
     if folder is None:
-        name = "-".join([target, optimization, *(value for _, value in defines)])
+        name = "-".join([target, optimization, *(Path(value).stem for _, value in defines)])
         folder = ROOT / "build" / (preset if plain else f"target/{name}")
     more = [f"-D{name}={value}" for name, value in defines]
     if not plain:
