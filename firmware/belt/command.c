@@ -8,14 +8,12 @@ belt_real_t belt_command_limit(belt_real_t flux, belt_real_t limit) {
 belt_real_t belt_command_solve(const belt_prediction_t *prediction, const belt_model_t *model,
                                const belt_nominal_law_t *law) {
     const belt_line_t *line = &model->line;
-    const belt_level_history_t *history = &model->history;
     const belt_present_t *present = &model->present;
     const belt_front_t *inlet = &prediction->inlet;
     /* Feeding: the middle of the hold. */
-    const belt_real_t half_hold = BELT_HALF * history->period;
-    const belt_real_t present_tail = belt_level_history_at(history, history->window);
-    const belt_real_t feeding =
-        belt_line_slowness(line, present->congestion + half_hold * (present->level - present_tail));
+    const belt_real_t half_hold = BELT_HALF * model->history.period;
+    const belt_real_t feeding = belt_line_slowness(
+        line, present->congestion + half_hold * (present->level - prediction->present_tail));
 
     /* Arrival: half a hold of travel behind the last material fed, at the pace of then. */
     const belt_real_t travel = half_hold / belt_line_slowness(line, present->congestion);

@@ -11,11 +11,13 @@ static inline belt_real_t second_share(const belt_stretch_t *stretch) {
                : BELT_REAL(0);
 }
 
-/** Two cells leave one after the other; `share` is the second one's of the stretch. */
+/** Two cells leave one after the other; `share` is the second one's of the stretch. Their density is taken
+ * to lie on a straight line, whose moment is a third more than that of a jump between them. */
 static inline belt_leaving_t one_after_the_other(belt_real_t first, belt_real_t second,
                                                  belt_real_t share) {
-    const belt_leaving_t leaving = {first + share * (second - first),
-                                    BELT_HALF * share * (BELT_REAL(1) - share) * (first - second)};
+    const belt_leaving_t leaving = {first + share * (second - first), BELT_REAL(2.0 / 3.0) * share *
+                                                                          (BELT_REAL(1) - share) *
+                                                                          (first - second)};
     return leaving;
 }
 
@@ -86,7 +88,8 @@ static belt_leaving_t leave_any(belt_prediction_t *prediction, const belt_line_t
                                 const belt_stretch_t *stretch, belt_real_t pace) {
     belt_front_t *front = &prediction->inlet;
     const belt_real_t half = BELT_HALF * (stretch->width[0] + stretch->width[1]);
-    const belt_real_t middle = front->place + half;
+    const belt_real_t middle = prediction->place + half;
+    prediction->place = middle + half;
     const belt_real_t share = second_share(stretch);
     belt_transfer_t transfer = while_they_pass(prediction, line, front->count, middle);
     const belt_real_t returned =
@@ -94,15 +97,33 @@ static belt_leaving_t leave_any(belt_prediction_t *prediction, const belt_line_t
     belt_fast_forward_last(&transfer, line, half, pace, returned);
     keep(&front->carried, &transfer);
 
-    const belt_real_t loss = BELT_HALF * belt_line_loss(line, (uint32_t)(int32_t)middle) * pace;
-    const belt_real_t less = loss * stretch->width[1]; /* the first cell has less of the way */
-    const belt_real_t more = loss * stretch->width[0];
-    const belt_real_t first = transfer.survival * stretch->density[0] *
-                              (BELT_REAL(1) + less * (BELT_REAL(1) + BELT_HALF * less));
-    const belt_real_t second = transfer.survival * stretch->density[1] *
-                               (BELT_REAL(1) - more * (BELT_REAL(1) - BELT_HALF * more));
+    /* The first cell's centre lies half the second's width nearer to the outlet, and the other way round. */
+    const belt_real_t sum = belt_line_loss_sum(line, middle);
+    const belt_real_t less =
+        (sum - belt_line_loss_sum(line, middle - BELT_HALF * stretch->width[1])) * pace;
+    const belt_real_t more =
+        (belt_line_loss_sum(line, middle + BELT_HALF * stretch->width[0]) - sum) * pace;
+    const belt_real_t first = transfer.survival * stretch->density[0] * belt_line_survival(-less);
+    const belt_real_t second = transfer.survival * stretch->density[1] * belt_line_survival(more);
     put_back(prediction, first + transfer.rework, second + transfer.rework, share);
     return one_after_the_other(first + transfer.rework, second + transfer.rework, share);
+}
+
+/** Looks at the level that leaves the window during the stretch ahead, as march_step.h says: on a plain
+ * line in its middle, else at both ends too, where there has been a front whose corner one look misses. */
+static belt_real_t look_ahead(belt_prediction_t *prediction, const belt_model_t *model,
+                              belt_real_t width) {
+    belt_front_t *front = &prediction->inlet;
+    const belt_level_history_t *history = &model->history;
+    const belt_real_t half = BELT_HALF * width * front->pace;
+    const belt_real_t middle = belt_march_tail_at(prediction, history, half);
+    if (belt_line_is_plain(&model->line)) {
+        return belt_march_seen_once(front, middle);
+    }
+    const belt_real_t begin = belt_march_tail_at(prediction, history, BELT_REAL(0));
+    const belt_real_t end = belt_march_tail_at(prediction, history, half + half);
+    front->tail = BELT_REAL(1.0 / 6.0) * (begin + BELT_REAL(4) * middle + end);
+    return BELT_REAL(1.0 / 3.0) * (begin + middle + middle);
 }
 
 void belt_march_stretch(belt_prediction_t *prediction, const belt_model_t *model,
@@ -110,7 +131,8 @@ void belt_march_stretch(belt_prediction_t *prediction, const belt_model_t *model
     const belt_line_t *line = &model->line;
     belt_front_t *front = &prediction->inlet;
     const belt_real_t width = stretch->width[0] + stretch->width[1];
-    const belt_real_t pace = belt_march_pace_ahead(prediction, model, front, width);
+    const belt_real_t early = look_ahead(prediction, model, width);
+    const belt_real_t pace = belt_march_pace_ahead(line, front, width, early);
     const belt_leaving_t leaving = belt_line_is_plain(line)
                                        ? leave_plain(&front->carried, line, stretch, pace)
                                        : leave_any(prediction, line, stretch, pace);

@@ -21,7 +21,7 @@ typedef struct {
     belt_real_t congestion; /**< p3 [parts s]. */
     belt_real_t pace;       /**< time a spacing takes at p3 [s]. */
     belt_real_t tail;       /**< level that left the window in the last stretch's middle [parts]. */
-    belt_real_t place;      /**< of the line, now [spacings from the outlet]. */
+    belt_real_t rise;       /**< of the level in the last stretch, for each spacing [parts]. */
     belt_carried_t carried; /**< K, I/K: on a plain line at the line, else at the last middle. */
     belt_real_t rework_before; /**< I in the middle of the last pair of whole cells [parts/m]. */
     uint32_t count;            /**< stretches passed. */
@@ -37,6 +37,8 @@ typedef struct {
     belt_real_t outlet_density[BELT_STRETCH_CAPACITY]; /**< p2, its mean over each [parts/m]. */
     belt_real_t returned[BELT_RETURNED_TABLE]; /**< what of it is put back, its mean, where a build
                                                     has another line's laws [parts/m]. */
+    belt_real_t present_tail;                  /**< level that leaves the window now [parts]. */
+    belt_real_t place;  /**< of that line now, but on a plain line [spacings from the outlet]. */
     uint32_t tail_line; /**< the line at or before the window's end, once that is predicted. */
     belt_front_t inlet; /**< where the march stands, in the end the inlet. */
 

@@ -23,13 +23,17 @@ static bool outlet_is_second(const belt_observer_t *observer) {
 
 static void start(belt_prediction_t *prediction, const belt_model_t *model) {
     const belt_present_t *present = &model->present;
+    const belt_line_t *line = &model->line;
     belt_front_t *front = &prediction->inlet;
     front->level = present->level;
     front->arrival = BELT_REAL(0);
     front->congestion = present->congestion;
-    front->pace = belt_line_slowness(&model->line, present->congestion) * model->line.spacing;
-    front->tail = present->level;
-    front->place = BELT_REAL(0);
+    front->pace = belt_line_slowness(line, present->congestion) * line->spacing;
+    prediction->present_tail = belt_level_history_at(&model->history, model->history.window);
+    front->tail = prediction->present_tail;
+    front->rise = line->gain * model->observer.outlet_density -
+                  (belt_line_service(line, present->level) - present->disturbance) * front->pace;
+    prediction->place = BELT_REAL(0);
     front->carried.survival = BELT_REAL(1);
     front->carried.rework = BELT_REAL(0);
     front->carried.rework_slope = BELT_REAL(0);

@@ -11,13 +11,14 @@
  *     p3_x    = (p1 - level at sigma - speed_window)*slowness(p3)
  *     p2      = survival*density + rework picked up on the way
  *
- * Level, time and congestion take one midpoint step for a pair of cells, survival and rework one for
- * each cell: second order, also where the density jumps between them. Pairs are pairs of material, so
- * that the prediction changes smoothly while the belt moves on. The window of p3 slides out of the
- * recorded levels into the predicted ones once sigma - speed_window lies in the future.
+ * Level, time and congestion take one step for a pair of cells (march_step.h), survival and rework one
+ * for each cell: third order in the pair's time where the line is smooth, second at corners and jumps.
+ * Pairs are pairs of material, so that the prediction changes smoothly while the belt moves on. The
+ * window of p3 slides out of the recorded levels into the predicted ones once sigma - speed_window lies
+ * in the future.
  *
- * Cost: uniform loss about 85 instructions a cell, some 500 for the ends and the rest; a loss profile
- * adds some 25 for each two stretches (node_count^2/8 of them). Stack: about 250 bytes.
+ * Cost: a plain line about 95 instructions a cell, some 800 for the ends and the rest; a loss profile
+ * twice as many, and some 25 for each two stretches (node_count^2/8 of them). Stack: 200 bytes.
  */
 #ifndef BELT_PREDICTOR_H
 #define BELT_PREDICTOR_H

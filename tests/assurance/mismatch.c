@@ -80,7 +80,7 @@ static bool run(const scenario_t *model, uint64_t seed, uint64_t index) {
 }
 
 int main(int argument_count, char *argument[]) {
-    const char *const settings[] = {"controller.model.estimator=on", "run.duration=25"};
+    const char *const settings[] = {"controller.estimator=on", "run.duration=25"};
     const scenario_settings_t given = {.text = settings, .count = 2};
     static scenario_t scenario;
     if ((argument_count < 4) || (argument_count > 5)) {

@@ -38,9 +38,13 @@ COMBINED_LAW = Law(level_setpoint=0.45)
     ids=["paper", "heavy_window", "lossy_profile", "loaded_line", "combination"],
 )
 def test_controller_is_of_second_order(scenario, settings, line, law, start, least):
-    """In double, with plant steps of 0.3 and 0.15 ms, whose own error of 1e-7 does not show."""
+    """In double, with plant steps of 0.3 and 0.08 ms, whose own error of 1e-7 does not show.
+
+    Over four times the nodes: between two and two the sup moves to another time, for the march is of
+    third order where the line is smooth and of second at corners.
+    """
     errors = []
-    for node_count, period in ((20, 2.5e-3), (40, 1.25e-3)):
+    for node_count, period in ((20, 2.5e-3), (80, 6.25e-4)):
         found = run(
             scenario,
             *settings,
@@ -52,8 +56,9 @@ def test_controller_is_of_second_order(scenario, settings, line, law, start, lea
             program="BELT_SIM_F64",
         )
         errors.append(greatest(shift_error(found, line, law, **start)))
-    print(f"sup {errors[0]:.3g} and {errors[1]:.3g}, divided by {errors[0] / errors[1]:.3g}")
-    assert errors[0] / errors[1] >= least
+    each = np.sqrt(errors[0] / errors[1])
+    print(f"sup {errors[0]:.3g} and {errors[1]:.3g}, divided by {each:.3g} with each doubling")
+    assert each >= least
 
 
 def test_nothing_but_rounding_is_left_at_equilibrium():

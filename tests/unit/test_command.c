@@ -25,6 +25,7 @@ static void rest_at_setpoint(void) {
     prediction.inlet.level = config.level_setpoint;
     prediction.inlet.arrival = BELT_REAL(rest.dead_time);
     prediction.inlet.congestion = BELT_REAL(rest.congestion);
+    prediction.present_tail = config.level_setpoint;
     prediction.inlet.tail = config.level_setpoint;
     prediction.inlet_survival = BELT_REAL(1);
 }
@@ -144,7 +145,7 @@ static void test_half_a_hold_is_longer_at_the_outlet_of_a_slower_line(void) {
 
 static void test_feeding_speed_is_that_of_the_middle_of_the_hold(void) {
     /* Now 0.3 enters the window and 0.1 leaves it: slower by P*0.2 each second. */
-    belt_level_history_begin(&model.history, BELT_REAL(0.1));
+    prediction.present_tail = BELT_REAL(0.1);
     const double slower = 0.265 + 0.25 * HALF_HOLD * (0.3 - 0.1);
     TEST_ASSERT_DOUBLE_WITHIN(steep(), 0.6 * 0.265 / slower, solve());
 }

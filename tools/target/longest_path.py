@@ -41,7 +41,7 @@ BOUNDS = [
     ("leave_plain", "for (int i = 0; i < 2", "2", ""),
     ("march_pairs", "for (uint32_t i = 0; i < pairs", "(n - 1) // 2", ""),
     # The window's end only ever moves forward, over at most all lines between the stretches.
-    ("belt_march_predicted_level", "while ((line + 1u", "n // 2 + 1", "n // 2 + 1"),
+    ("belt_march_predicted_level", "while ((line < count", "n // 2 + 1", "n // 2 + 1"),
     ("belt_fast_forward", "for (uint32_t i = 0; i < passed->count", "n // 2 + 1", ""),
     ("age_profile", "for (uint32_t i = 1; i < line->node_count", "n - 1", ""),
     ("age_uniform", "for (uint32_t cell = from", "n - 1", "n - 1"),
