@@ -1,9 +1,32 @@
 /* SPDX-License-Identifier: MIT */
 #include "check.h"
 
+#include <string.h>
+
 #include "equilibrium.h"
 #include "model.h"
 #include "promises.h"
+
+/* Whose laws controller and plant have; what is left out is the paper's. */
+#ifdef BELT_LINE_LAWS
+#define CONTROLLER_LAWS BELT_LINE_LAWS
+#else
+#define CONTROLLER_LAWS "the paper's"
+#endif
+#ifdef SIM_LINE_LAWS
+#define PLANT_LAWS SIM_LINE_LAWS
+#else
+#define PLANT_LAWS "the paper's"
+#endif
+
+static void print_laws(FILE *out) {
+    const char *const of_controller = CONTROLLER_LAWS;
+    const char *const of_plant = PLANT_LAWS;
+    if (strcmp(of_controller, of_plant) != 0) {
+        fprintf(out, "laws of the line: the controller's %s, the plant's %s\n", of_controller,
+                of_plant);
+    }
+}
 
 bool check_report(const scenario_t *scenario, FILE *out) {
     belt_config_t config;
@@ -26,6 +49,7 @@ bool check_report(const scenario_t *scenario, FILE *out) {
             empty, rest.dead_time, (double)belt_config_dead_time_max(&config),
             empty / scenario->controller.period, rest.dead_time / scenario->controller.period,
             (double)belt_config_dead_time_max(&config) / scenario->controller.period);
+    print_laws(out);
     belt_nominal_law_t law;
     belt_nominal_law_init(&law, &config);
     fprintf(out, "law: slope %.6g 1/s, gains %.6g below and %.6g above 1/parts\n",

@@ -88,7 +88,7 @@ def predicted(line: Line, law: Law, state: State):
 
 
 def presupposed(line: Line, state: State, last_level: float) -> bool:
-    """0 <= Q(0) < Qmax, 0 <= p1(D, 0) <= Qmax, a belt that holds no negative density and nowhere grows."""
+    """0 <= Q(0) < Qmax, 0 <= p1(D, 0) <= Qmax, no negative density, no loss rate below 0."""
     level = float(state.record.state[0])
     ends = 0.0 <= level < line.level_capacity and 0.0 <= last_level <= line.level_capacity
     return bool(ends and np.min(state.densities) >= 0.0 and min(line.loss_rate) >= 0.0)

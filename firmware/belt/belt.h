@@ -7,7 +7,7 @@
  *     belt_status_t status = belt_init(&controller, &config);
  *     every period: belt_step(&controller, &measurement, &command);
  *
- * Cost: see docs/FIGURES.md; init and a set-point change are for start-up and operators, not for the
+ * Cost: see docs/COST.md; init and a set-point change are for start-up and operators, not for the
  * period. No heap, no recursion, every loop bounded by node_count (a loss profile: its square) or by
  * a constant. One context calls all functions of a controller; two controllers share nothing.
  */
@@ -18,9 +18,9 @@
 #include "config.h"
 #include "gains.h"
 #include "integrity.h"
+#include "internal_model.h"
 #include "limits.h"
 #include "measurement.h"
-#include "model.h"
 #include "nominal_law.h"
 #include "predictor.h"
 #include "supervisor.h"

@@ -14,7 +14,7 @@
 
 /** How a density at some place turns into one at the outlet: survival*density + rework. */
 typedef struct {
-    belt_real_t survival; /**< K: share that is left, (0, 1]. */
+    belt_real_t survival; /**< K: share that is left, > 0; above 1 of what has grown. */
     belt_real_t rework;   /**< I: density picked up on the way [parts/m]. */
 } belt_transfer_t;
 

@@ -13,7 +13,8 @@
 
 #include "types.h"
 
-/** Sum of the 32-bit words of a block; any one changed bit changes it. `size` is a multiple of 4. */
+/** Sum of the 32-bit words of a block; any one changed bit changes it. The block is aligned as a word is,
+ * `size` a multiple of 4. */
 uint32_t belt_integrity_sum(const void *block, size_t size);
 
 #endif

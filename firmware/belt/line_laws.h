@@ -22,7 +22,16 @@
 
 #ifdef BELT_LINE_LAWS
 #include BELT_LINE_LAWS
+
+/** What a law is asked of: rounding, or a step that takes a little too much, leaves some numbers below 0. */
+static inline belt_real_t belt_law_argument(belt_real_t value) {
+    return (value > BELT_REAL(0)) ? value : BELT_REAL(0);
+}
 #else
+
+static inline belt_real_t belt_law_argument(belt_real_t value) {
+    return value; /* the paper's laws go on below 0 */
+}
 
 /** Time per length at a congestion >= 0 [s/m]: empty + slope*congestion, which is the paper's speed
  * 1/(P*(1 + R/congestion_scale)) written as its inverse. `empty` is P [s/m], `slope` its rise

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "line_model.h"
 
-#if BELT_LINE_HAS_TABLES
+#if BELT_LOSS_CAPACITY > 1
 static bool is_uniform(const belt_config_t *config) {
     for (uint32_t i = 1; i < config->loss_count; ++i) {
         if ((config->loss_rate[i] > config->loss_rate[0]) ||
@@ -29,13 +29,27 @@ static belt_real_t loss_up_to(const belt_config_t *config, belt_real_t x) {
     }
     return integral;
 }
+#else
+static bool is_uniform(const belt_config_t *config) {
+    (void)config;
+    return true;
+}
+#endif
 
+#if (BELT_LOSS_CAPACITY == 1) && BELT_LINE_HAS_TABLES
+static belt_real_t loss_up_to(const belt_config_t *config, belt_real_t x) {
+    return config->loss_rate[0] * x;
+}
+#endif
+
+#if BELT_LINE_HAS_TABLES
 #ifdef BELT_LINE_LAWS
 static void fill_rework(belt_line_t *line, const belt_config_t *config) {
     const uint32_t nodes = config->node_count;
     for (uint32_t i = 0; i <= nodes; ++i) {
-        line->rework[i] = belt_law_rework(line->spacing * (belt_real_t)i, config->belt_length,
-                                          config->rework_rate);
+        const belt_real_t x =
+            belt_within(BELT_REAL(0), line->spacing * (belt_real_t)i, config->belt_length);
+        line->rework[i] = belt_law_rework(x, config->belt_length, config->rework_rate);
     }
     line->rework[nodes + 1u] = line->rework[nodes];
 }
@@ -60,11 +74,6 @@ static void fill_tables(belt_line_t *line, const belt_config_t *config) {
     fill_rework(line, config);
 }
 #else
-static bool is_uniform(const belt_config_t *config) {
-    (void)config;
-    return true;
-}
-
 static void fill_tables(belt_line_t *line, const belt_config_t *config) {
     (void)line;
     (void)config;

@@ -68,7 +68,8 @@ void belt_line_init(belt_line_t *line, const belt_config_t *config);
 
 /** 1/omega(R) [s/m]. */
 static inline belt_real_t belt_line_slowness(const belt_line_t *line, belt_real_t congestion) {
-    return belt_law_slowness(congestion, line->slowness_empty, line->slowness_slope);
+    return belt_law_slowness(belt_law_argument(congestion), line->slowness_empty,
+                             line->slowness_slope);
 }
 
 /** A level that the buffer can have: what is too much is spilled; what is no number is none [parts]. */
@@ -78,7 +79,12 @@ static inline belt_real_t belt_line_level(const belt_line_t *line, belt_real_t l
 
 /** What the buffer gives away [parts/s]. */
 static inline belt_real_t belt_line_service(const belt_line_t *line, belt_real_t level) {
-    return belt_law_service(level, line->service_rate, line->service_rate_max);
+    return belt_law_service(belt_law_argument(level), line->service_rate, line->service_rate_max);
+}
+
+/** What of a density that leaves takes part in the rework [parts/m]. */
+static inline belt_real_t belt_line_returned(belt_real_t outlet_density) {
+    return belt_law_returned(belt_law_argument(outlet_density));
 }
 
 /* Density that rework puts back at a place in a second, per density returned [1/s]:
@@ -86,7 +92,8 @@ static inline belt_real_t belt_line_service(const belt_line_t *line, belt_real_t
  *   belt_line_rework_beyond_inlet   by the distance from the inlet, the same [spacings] */
 #ifdef BELT_LINE_LAWS
 static inline belt_real_t belt_line_rework(const belt_line_t *line, belt_real_t place) {
-    const int32_t node = (int32_t)place;
+    /* Whatever it is: a loss of the tables that has changed may make it anything. */
+    const int32_t node = (int32_t)belt_within(BELT_REAL(0), place, (belt_real_t)line->node_count);
     const belt_real_t rise = line->rework[node + 1] - line->rework[node];
     return line->rework[node] + (place - (belt_real_t)node) * rise;
 }
@@ -127,12 +134,24 @@ static inline belt_real_t belt_line_loss_sum(const belt_line_t *line, belt_real_
 #endif
 
 /** True where all material ages alike: survival and rework can be carried from one to the next. */
+#if BELT_LINE_HAS_LAWS
 static inline bool belt_line_is_plain(const belt_line_t *line) {
-    return (BELT_LINE_HAS_LAWS == 0) && ((BELT_LINE_HAS_TABLES == 0) || line->loss_is_uniform);
+    (void)line;
+    return false;
 }
+#elif BELT_LINE_HAS_TABLES
+static inline bool belt_line_is_plain(const belt_line_t *line) {
+    return line->loss_is_uniform;
+}
+#else
+static inline bool belt_line_is_plain(const belt_line_t *line) {
+    (void)line;
+    return true;
+}
+#endif
 
 /** 1 - exp(-loss), what is lost: the series up to the third power, for a loss over at most two
- * spacings, which twice BELT_CHANGE_PER_NODE_MAX bounds. Error below loss^4/24. */
+ * spacings, which twice BELT_CHANGE_PER_NODE_MAX bounds. Error below loss^4/20. */
 static inline belt_real_t belt_line_lost(belt_real_t loss) {
     const belt_real_t third = BELT_REAL(1) / BELT_REAL(3);
     return loss * (BELT_REAL(1) - BELT_HALF * loss * (BELT_REAL(1) - third * loss));

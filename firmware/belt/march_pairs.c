@@ -7,8 +7,8 @@ uint32_t belt_march_plain_pairs(belt_prediction_t *prediction, const belt_model_
                                 uint32_t cell, uint32_t pairs) {
     belt_front_t front = prediction->inlet;
     for (uint32_t i = 0; i < pairs; ++i) {
-        const belt_real_t tail = belt_march_level_leaving(prediction, &model->history, &front,
-                                                          front.arrival + front.pace);
+        const belt_real_t tail =
+            belt_march_level_leaving(prediction, model, &front, front.arrival + front.pace);
         const belt_real_t early = belt_march_seen_once(&front, tail);
         const belt_real_t pace = belt_march_pace_ahead(&model->line, &front, BELT_REAL(2), early);
         const belt_cell_factors_t factors = belt_carried_factors(&model->line, BELT_REAL(1), pace);

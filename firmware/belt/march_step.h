@@ -17,7 +17,8 @@ typedef struct {
 
 /** Predicted level at a time from now, linear between the lines passed and going on with `slope` beyond
  * the last [parts/s]; the window's end only ever moves forward. */
-static inline belt_real_t belt_march_predicted_level(belt_prediction_t *prediction, uint32_t count,
+static inline belt_real_t belt_march_predicted_level(belt_prediction_t *prediction,
+                                                     const belt_line_t *belt, uint32_t count,
                                                      belt_real_t time, belt_real_t slope) {
     uint32_t line = prediction->tail_line;
     while ((line < count) && (prediction->arrival[line + 1u] <= time)) {
@@ -25,7 +26,8 @@ static inline belt_real_t belt_march_predicted_level(belt_prediction_t *predicti
     }
     prediction->tail_line = line;
     if (line >= count) {
-        return prediction->level[count] + slope * (time - prediction->arrival[count]);
+        return belt_line_level(belt, prediction->level[count] +
+                                         slope * (time - prediction->arrival[count]));
     }
     const belt_real_t rise = prediction->level[line + 1u] - prediction->level[line];
     const belt_real_t duration = prediction->arrival[line + 1u] - prediction->arrival[line];
@@ -34,17 +36,18 @@ static inline belt_real_t belt_march_predicted_level(belt_prediction_t *predicti
 
 /** The level that leaves the window at a time from now: recorded, or itself predicted (MF5). */
 static inline belt_real_t belt_march_level_leaving(belt_prediction_t *prediction,
-                                                   const belt_level_history_t *history,
+                                                   const belt_model_t *model,
                                                    const belt_front_t *front, belt_real_t time) {
+    const belt_level_history_t *history = &model->history;
     const belt_real_t age = history->window - time * history->rate;
     return (age >= BELT_REAL(0))
                ? belt_level_history_at(history, age)
-               : belt_march_predicted_level(prediction, front->count, -age * history->period,
-                                            front->rise / front->pace);
+               : belt_march_predicted_level(prediction, &model->line, front->count,
+                                            -age * history->period, front->rise / front->pace);
 }
 
 /** The same `later` than the line that the march has reached; a call, where it is asked for often. */
-belt_real_t belt_march_tail_at(belt_prediction_t *prediction, const belt_level_history_t *history,
+belt_real_t belt_march_tail_at(belt_prediction_t *prediction, const belt_model_t *model,
                                belt_real_t later);
 
 /** Time that a spacing takes [s]. */
@@ -90,8 +93,9 @@ static inline void belt_march_pass(belt_prediction_t *prediction, const belt_mod
     const belt_real_t mean =
         belt_line_level(line, front->level + gain * leaving.lead + share * net);
     const belt_real_t outflow = belt_line_service(line, mean) - disturbance;
-    front->level = belt_line_level(line, front->level + inflow - outflow * dwell);
-    front->rise = line->gain * leaving.mean - outflow * pace;
+    const belt_real_t before = front->level;
+    front->level = belt_line_level(line, before + inflow - outflow * dwell);
+    front->rise = (width > BELT_REAL(0)) ? (front->level - before) / width : BELT_REAL(0);
     front->arrival += dwell;
     front->congestion += line->crowding * (mean - front->tail) * dwell;
     front->pace = belt_march_pace(line, front->congestion);

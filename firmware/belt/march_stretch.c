@@ -12,7 +12,7 @@ static inline belt_real_t second_share(const belt_stretch_t *stretch) {
 }
 
 /** Two cells leave one after the other; `share` is the second one's of the stretch. Their density is taken
- * to lie on a straight line, whose moment is a third more than that of a jump between them. */
+ * to lie on a straight line: its moment is a third more than that of a jump between equal cells. */
 static inline belt_leaving_t one_after_the_other(belt_real_t first, belt_real_t second,
                                                  belt_real_t share) {
     const belt_leaving_t leaving = {first + share * (second - first), BELT_REAL(2.0 / 3.0) * share *
@@ -41,9 +41,9 @@ static inline const belt_real_t *returned_by(const belt_prediction_t *prediction
 
 static inline void put_back(belt_prediction_t *prediction, belt_real_t first, belt_real_t second,
                             belt_real_t share) {
-    const belt_real_t of_first = belt_law_returned(first);
+    const belt_real_t of_first = belt_line_returned(first);
     prediction->returned[prediction->inlet.count] =
-        of_first + share * (belt_law_returned(second) - of_first);
+        of_first + share * (belt_line_returned(second) - of_first);
 }
 #else
 static inline const belt_real_t *returned_by(const belt_prediction_t *prediction) {
@@ -78,8 +78,8 @@ static inline belt_real_t returned_on_the_last_way(const belt_line_t *line,
                                                    belt_real_t pace, belt_real_t density) {
     belt_transfer_t gone = *before;
     belt_fast_forward_last(&gone, line, way, pace,
-                           belt_law_returned(before->survival * density + before->rework));
-    return belt_law_returned(gone.survival * density + gone.rework);
+                           belt_line_returned(before->survival * density + before->rework));
+    return belt_line_returned(gone.survival * density + gone.rework);
 }
 
 /** Any line: the stretch's middle is moved past all before it; its two cells are told apart by the loss
@@ -114,14 +114,14 @@ static belt_leaving_t leave_any(belt_prediction_t *prediction, const belt_line_t
 static belt_real_t look_ahead(belt_prediction_t *prediction, const belt_model_t *model,
                               belt_real_t width) {
     belt_front_t *front = &prediction->inlet;
-    const belt_level_history_t *history = &model->history;
     const belt_real_t half = BELT_HALF * width * front->pace;
-    const belt_real_t middle = belt_march_tail_at(prediction, history, half);
     if (belt_line_is_plain(&model->line)) {
-        return belt_march_seen_once(front, middle);
+        return belt_march_seen_once(front, belt_march_tail_at(prediction, model, half));
     }
-    const belt_real_t begin = belt_march_tail_at(prediction, history, BELT_REAL(0));
-    const belt_real_t end = belt_march_tail_at(prediction, history, half + half);
+    /* In the order of time: the window's end only moves forward. */
+    const belt_real_t begin = belt_march_tail_at(prediction, model, BELT_REAL(0));
+    const belt_real_t middle = belt_march_tail_at(prediction, model, half);
+    const belt_real_t end = belt_march_tail_at(prediction, model, half + half);
     front->tail = BELT_REAL(1.0 / 6.0) * (begin + BELT_REAL(4) * middle + end);
     return BELT_REAL(1.0 / 3.0) * (begin + middle + middle);
 }

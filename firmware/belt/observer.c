@@ -75,7 +75,7 @@ belt_real_t belt_observer_rest_of_outlet(const belt_observer_t *observer) {
 
 /** What of the material that leaves is put back [parts/m]. */
 static belt_real_t returned(const belt_observer_t *observer) {
-    return belt_law_returned(observer->outlet_density);
+    return belt_line_returned(observer->outlet_density);
 }
 
 /** What leaves of a cell in a share of a spacing, when its centre still has `place` spacings to go at

@@ -6,7 +6,7 @@
 #define BELT_PREDICTION_H
 
 #include "carried_transfer.h"
-#include "model.h"
+#include "internal_model.h"
 
 /** Stretches that a march passes: cells in pairs, at each end a pair or one cell. */
 #define BELT_STRETCH_CAPACITY (BELT_NODE_CAPACITY / 2 + 2)
@@ -42,8 +42,8 @@ typedef struct {
     uint32_t tail_line; /**< the line at or before the window's end, once that is predicted. */
     belt_front_t inlet; /**< where the march stands, in the end the inlet. */
 
-    belt_real_t inlet_survival;     /**< K(D, D): share of what is fed now that will leave, > 0. */
-    belt_real_t inlet_rework;       /**< I(D): density it will have picked up by then [parts/m]. */
+    belt_real_t inlet_survival; /**< K(D, D): share of what is fed now that will be left, > 0. */
+    belt_real_t inlet_rework;   /**< I(D): density it will have picked up by then [parts/m]. */
     belt_real_t inlet_rework_slope; /**< how much more of it a spacing further in [parts/m]. */
 } belt_prediction_t;
 

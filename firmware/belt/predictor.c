@@ -13,7 +13,7 @@ static belt_real_t rest_of_outlet(const belt_line_t *line, const belt_observer_t
     const belt_real_t time = BELT_HALF * ((observer->gone < rest) ? observer->gone : rest) * pace;
     const belt_real_t loss = belt_line_loss(line, 0u) * time;
     return density + density * loss * (BELT_REAL(1) + BELT_HALF * loss) -
-           belt_law_returned(density) * belt_line_rework(line, BELT_REAL(0)) * time;
+           belt_line_returned(density) * belt_line_rework(line, BELT_REAL(0)) * time;
 }
 
 /** Whether the outlet cell is the inlet-side one of its pair. */
@@ -31,8 +31,10 @@ static void start(belt_prediction_t *prediction, const belt_model_t *model) {
     front->pace = belt_line_slowness(line, present->congestion) * line->spacing;
     prediction->present_tail = belt_level_history_at(&model->history, model->history.window);
     front->tail = prediction->present_tail;
-    front->rise = line->gain * model->observer.outlet_density -
-                  (belt_line_service(line, present->level) - present->disturbance) * front->pace;
+    const belt_real_t net =
+        line->gain * model->observer.outlet_density -
+        (belt_line_service(line, present->level) - present->disturbance) * front->pace;
+    front->rise = belt_line_level(line, present->level + net) - present->level;
     prediction->place = BELT_REAL(0);
     front->carried.survival = BELT_REAL(1);
     front->carried.rework = BELT_REAL(0);

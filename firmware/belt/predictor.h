@@ -12,7 +12,8 @@
  *     p2      = survival*density + rework picked up on the way
  *
  * Level, time and congestion take one step for a pair of cells (march_step.h), survival and rework one
- * for each cell: third order in the pair's time where the line is smooth, second at corners and jumps.
+ * for each cell. The terms of a step are those of third order; the whole is of second, with a small
+ * constant: what leaves is taken by cells, and the window's end is looked at in a stretch's middle.
  * Pairs are pairs of material, so that the prediction changes smoothly while the belt moves on. The
  * window of p3 slides out of the recorded levels into the predicted ones once sigma - speed_window lies
  * in the future.

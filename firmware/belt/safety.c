@@ -75,11 +75,18 @@ static belt_real_t greatest_density(const belt_controller_t *controller, bool *i
     return greatest;
 }
 
-/** Whether material grows anywhere on its way. */
-static bool grows(const belt_config_t *config) {
-    return belt_config_loss_exponent(config) >
+/** Whether both bounds are proved for such a line: the paper's laws, and nowhere a density that grows. */
+#if BELT_LINE_HAS_LAWS
+static bool is_proved_for(const belt_config_t *config) {
+    (void)config;
+    return false;
+}
+#else
+static bool is_proved_for(const belt_config_t *config) {
+    return belt_config_loss_exponent(config) <=
            belt_config_loss_mean(config) * belt_config_dead_time_max(config);
 }
+#endif
 
 static void look_ahead(outlook_t *outlook, belt_prediction_t *march,
                        const belt_controller_t *controller) {
@@ -91,9 +98,9 @@ static void look_ahead(outlook_t *outlook, belt_prediction_t *march,
     outlook->arriving = belt_command_wanted(&controller->law, &model->present, march->inlet.level);
     outlook->holding =
         belt_command_wanted(&controller->law, &model->present, controller->law.level_setpoint);
-    outlook->applies = (BELT_LINE_HAS_LAWS == 0) &&
-                       (controller->config.prediction == BELT_PREDICT_CONGESTION) &&
-                       (model->present.congestion >= BELT_REAL(0)) && !grows(&controller->config) &&
+    outlook->applies = (controller->config.prediction == BELT_PREDICT_CONGESTION) &&
+                       (model->present.congestion >= BELT_REAL(0)) &&
+                       is_proved_for(&controller->config) &&
                        stays_below(march, model->line.level_capacity);
 }
 
@@ -169,7 +176,7 @@ static belt_real_t rework_after(const outlook_t *outlook, uint32_t gone, belt_re
         const belt_real_t density = (i < gone) ? fed : march->outlet_density[i];
         const belt_real_t width = march->width[i];
         rework +=
-            weight(line, place + BELT_HALF * width, pace) * width * belt_law_returned(density);
+            weight(line, place + BELT_HALF * width, pace) * width * belt_line_returned(density);
         place += width;
     }
     return rework * line->spacing;

@@ -28,7 +28,7 @@
 #include "belt.h"
 
 /** Changes whenever the meaning of a slot's bytes does. */
-#define BELT_SNAPSHOT_LAYOUT 1u
+#define BELT_SNAPSHOT_LAYOUT 2u
 
 /** Bytes of the controller that are its state. */
 #define BELT_STATE_SIZE                                                                            \

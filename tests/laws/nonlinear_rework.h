@@ -7,8 +7,6 @@
 #ifndef TESTS_LAWS_NONLINEAR_REWORK_H
 #define TESTS_LAWS_NONLINEAR_REWORK_H
 
-#include "belt/types.h"
-
 static inline belt_real_t belt_law_slowness(belt_real_t congestion, belt_real_t empty,
                                             belt_real_t slope) {
     return empty + slope * congestion;

@@ -10,8 +10,6 @@
 #ifndef TESTS_LAWS_OTHER_LAWS_H
 #define TESTS_LAWS_OTHER_LAWS_H
 
-#include "belt/types.h"
-
 static inline belt_real_t belt_law_slowness(belt_real_t congestion, belt_real_t empty,
                                             belt_real_t slope) {
     const belt_real_t more = slope * congestion;

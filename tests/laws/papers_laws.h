@@ -3,8 +3,6 @@
 #ifndef TESTS_LAWS_PAPERS_LAWS_H
 #define TESTS_LAWS_PAPERS_LAWS_H
 
-#include "belt/types.h"
-
 static inline belt_real_t belt_law_slowness(belt_real_t congestion, belt_real_t empty,
                                             belt_real_t slope) {
     return empty + slope * congestion;

@@ -40,8 +40,8 @@ COMBINED_LAW = Law(level_setpoint=0.45)
 def test_controller_is_of_second_order(scenario, settings, line, law, start, least):
     """In double, with plant steps of 0.3 and 0.08 ms, whose own error of 1e-7 does not show.
 
-    Over four times the nodes: between two and two the sup moves to another time, for the march is of
-    third order where the line is smooth and of second at corners.
+    Over four times the nodes: with each doubling the sup moves to another time, for the terms of a
+    step are of third order where the line is smooth and of second at corners.
     """
     errors = []
     for node_count, period in ((20, 2.5e-3), (80, 6.25e-4)):

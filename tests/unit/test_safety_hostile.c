@@ -196,9 +196,9 @@ static void test_numbers_are_finite_whatever_bits_the_state_holds(void) {
     well = controller;
     for (int i = 0; i < 20000; ++i) {
         controller = well;
-        for (size_t k = random_bits(&random) % 4u; k < 4u; ++k) {
-            const size_t block = random_bits(&random) % 3u;
-            const size_t word = random_bits(&random) % (size[block] / sizeof(uint32_t));
+        for (size_t k = (size_t)random_bits(&random) % 4u; k < 4u; ++k) {
+            const size_t block = (size_t)random_bits(&random) % 3u;
+            const size_t word = (size_t)random_bits(&random) % (size[block] / sizeof(uint32_t));
             const uint32_t bits = (uint32_t)random_bits(&random);
             memcpy((unsigned char *)&controller + unsealed[block] + word * sizeof bits, &bits,
                    sizeof bits);

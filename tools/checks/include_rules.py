@@ -27,7 +27,7 @@ STAGES = [
     "level_history",
     "observer",
     "estimator",
-    "model",
+    "internal_model",
     "fast_forward",
     "carried_transfer",
     "prediction",

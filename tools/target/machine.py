@@ -1,8 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""What the linker and the disassembler say of a program for a target."""
+"""What the linker and the disassembler say of a program for a target.
+
+    build/venv/bin/python tools/target/machine.py FOLDER_OF_A_BUILD
+
+prints the bytes of flash that each object of the library takes in it.
+"""
 
 import re
+import sys
 from dataclasses import dataclass
+from pathlib import Path
 
 import board
 
@@ -155,3 +162,13 @@ def deepest_stack(build, program, root):
         return known[name]
 
     return depth(root, ())
+
+
+if __name__ == "__main__":
+    parts = {
+        name: flash_of(sizes)
+        for name, sizes in library_objects(board.Build("", Path(sys.argv[1]))).items()
+    }
+    for name, size in sorted(parts.items(), key=lambda part: -part[1]):
+        print(f"{size:6} {name}.c")
+    print(f"{sum(parts.values()):6} all")

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "model.h"
+#include "internal_model.h"
 
 /** What the march starts from. */
 static void look(belt_model_t *model, belt_real_t level) {

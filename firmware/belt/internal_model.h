@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * model.h - the line as the controller knows it: its constants, its past, what lies on it and what
+ * internal_model.h - the line as the controller knows it: its constants, its past, what lies on it and what
  * disturbs it, taken on from period to period.
  */
-#ifndef BELT_MODEL_H
-#define BELT_MODEL_H
+#ifndef BELT_INTERNAL_MODEL_H
+#define BELT_INTERNAL_MODEL_H
 
 #include "estimator.h"
 #include "level_history.h"
