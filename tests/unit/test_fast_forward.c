@@ -169,6 +169,26 @@ static void test_last_way_of_no_length_changes_nothing(void) {
     TEST_ASSERT_TRUE(transfer.rework == BELT_REAL(0.25));
 }
 
+/** A way of 2 spacings on which half is lost or so, far beyond what a configuration may have: what is kept
+ * is off by the first term that the series leaves out, what stays of the rework by that over the loss. The
+ * rework's rate falls along the belt; where it is taken is right up to loss^3/720 of the way. */
+static void test_way_of_a_great_loss_is_the_exponential_up_to_the_fifth_power(void) {
+    const double loss = 0.5;
+    begin(1.0, 1.0, 0.1);
+    belt_transfer_t transfer = {BELT_REAL(1), BELT_REAL(0)};
+    belt_fast_forward_last(&transfer, &line, BELT_REAL(2), BELT_REAL(0.5 * loss), BELT_REAL(1));
+    const double kept = exp(-loss);
+    TEST_ASSERT_DOUBLE_WITHIN(pow(loss, 5.0) / 120.0 + ROUNDING, kept, (double)transfer.survival);
+    /* Integral of A*(20 - place)*spacing*exp(-loss*place/2) over the way and its time, which is `loss`. */
+    const double staying = (1.0 - kept) / loss;
+    const double leaning = (1.0 - kept * (1.0 + loss)) / (loss * loss);
+    const double put_back = 0.1 * 0.1 * loss * (20.0 * staying - 2.0 * leaning);
+    const double greatest = 0.1 * 2.0 * loss;
+    TEST_ASSERT_DOUBLE_WITHIN(
+        greatest * (pow(loss, 4.0) / 120.0 + 2.0 / 20.0 * pow(loss, 3.0) / 720.0 + ROUNDING),
+        put_back, (double)transfer.rework);
+}
+
 int main(void) {
     UNITY_BEGIN();
     RUN_TEST(test_nothing_passed_changes_nothing);
@@ -183,5 +203,6 @@ int main(void) {
     RUN_TEST(test_loss_profile_is_met_from_the_place_where_the_piece_lies);
     RUN_TEST(test_last_way_is_added);
     RUN_TEST(test_last_way_of_no_length_changes_nothing);
+    RUN_TEST(test_way_of_a_great_loss_is_the_exponential_up_to_the_fifth_power);
     return UNITY_END();
 }

@@ -113,11 +113,36 @@ static void test_survival_is_that_of_the_whole_way_wherever_the_outlet_is(void) 
     }
 }
 
+/** What leaves of the outlet cell, by itself: moved on from where the cell's density counts, its own middle
+ * or, once that has left, the outlet, to the middle of its rest, and from there to the outlet. */
+static void assert_rest_of_outlet_leaves_with(double gone, double exponent, double close) {
+    model.observer.outlet = 1u; /* the second of its pair: it leaves alone */
+    model.observer.gone = BELT_REAL(gone);
+    march();
+    TEST_ASSERT_DOUBLE_WITHIN(0.5 * close + rounding(), 0.5 * exp(exponent),
+                              (double)prediction.outlet_density[0]);
+}
+
+/** The greatest loss that a configuration may have, a quarter on a spacing. Of the quarter or so of a cell
+ * in between the loss is 1/32: exp() up to its cube; the series of the rest's own way to the fourth. */
+static void test_rest_of_the_outlet_cell_leaves_at_the_age_of_its_own_middle(void) {
+    hold_speed();
+    forget_loss_and_rework();
+    config.loss_rate[0] = BELT_REAL(10);
+    lay(half, nothing);
+    const double loss = 10.0 * 0.025;
+    const double between = 0.125 * loss;
+    const double close = between * between * between + pow(0.375 * loss, 4.0) / 20.0;
+    assert_rest_of_outlet_leaves_with(0.25, -0.25 * loss, close);
+    assert_rest_of_outlet_leaves_with(0.75, 0.0, close);
+}
+
 int main(void) {
     UNITY_BEGIN();
     RUN_TEST(test_without_service_every_part_arrives_wherever_the_outlet_is);
     RUN_TEST(test_level_follows_what_is_still_to_leave);
     RUN_TEST(test_profile_of_nearly_equal_values_is_the_uniform_loss_wherever_the_outlet_is);
     RUN_TEST(test_survival_is_that_of_the_whole_way_wherever_the_outlet_is);
+    RUN_TEST(test_rest_of_the_outlet_cell_leaves_at_the_age_of_its_own_middle);
     return UNITY_END();
 }
