@@ -8,6 +8,9 @@
 
 #include "prediction.h"
 
+/** A narrower stretch tells less of how the level changes than its rounding does [spacings]. */
+#define BELT_MARCH_WIDTH_TOLD BELT_REAL(0.015625)
+
 /** What leaves with a stretch. */
 typedef struct {
     belt_real_t mean; /**< mean outlet density [parts/m]. */
@@ -95,7 +98,9 @@ static inline void belt_march_pass(belt_prediction_t *prediction, const belt_mod
     const belt_real_t outflow = belt_line_service(line, mean) - disturbance;
     const belt_real_t before = front->level;
     front->level = belt_line_level(line, before + inflow - outflow * dwell);
-    front->rise = (width > BELT_REAL(0)) ? (front->level - before) / width : BELT_REAL(0);
+    if (width > BELT_MARCH_WIDTH_TOLD) {
+        front->rise = (front->level - before) / width;
+    }
     front->arrival += dwell;
     front->congestion += line->crowding * (mean - front->tail) * dwell;
     front->pace = belt_march_pace(line, front->congestion);
