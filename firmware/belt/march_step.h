@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * march_step.h - the step that every stretch takes: its mean pace, then level, time and congestion behind
- * it. For march_stretch.c and march_pairs.c.
+ * it. For the march alone.
  */
 #ifndef BELT_MARCH_STEP_H
 #define BELT_MARCH_STEP_H

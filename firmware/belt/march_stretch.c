@@ -71,8 +71,8 @@ static void keep(belt_carried_t *carried, const belt_transfer_t *transfer) {
     carried->rework = transfer->rework / transfer->survival;
 }
 
-/** What is put back while a stretch's middle is on its last way: of its outlet end, with the loss and the rework of
- * that very way, which is found by going it once already. */
+/** What is put back while a stretch's middle is on its last way: of its outlet end, with the loss and the
+ * rework of that very way, which is found by going it once already. */
 static inline belt_real_t returned_on_the_last_way(const belt_line_t *line,
                                                    const belt_transfer_t *before, belt_real_t way,
                                                    belt_real_t pace, belt_real_t density) {

@@ -2,6 +2,7 @@
 #include "predictor.h"
 
 #include "march_pairs.h"
+#include "march_step.h"
 #include "march_stretch.h"
 
 /** Density of what is left of the outlet cell, at the age of its own middle. The cell holds it at the
@@ -28,7 +29,7 @@ static void start(belt_prediction_t *prediction, const belt_model_t *model) {
     front->level = present->level;
     front->arrival = BELT_REAL(0);
     front->congestion = present->congestion;
-    front->pace = belt_line_slowness(line, present->congestion) * line->spacing;
+    front->pace = belt_march_pace(line, present->congestion);
     prediction->present_tail = belt_level_history_at(&model->history, model->history.window);
     front->tail = prediction->present_tail;
     const belt_real_t net =

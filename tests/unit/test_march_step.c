@@ -1,27 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* One step of the march by itself: its mean pace to third order, its mean level in closed form. */
-#include "belt/march_step.h"
-
 #include "belt/march_pairs.h"
-#include "paper_case.h"
-#include "reals.h"
-#include "unity.h"
 
-#include <string.h>
-
-static belt_config_t config;
-static belt_model_t model;
-static belt_prediction_t prediction;
-
-static void begin(void) {
-    memset(&model, 0, sizeof model);
-    memset(&prediction, 0, sizeof prediction);
-    belt_line_init(&model.line, &config);
-    belt_level_history_init(&model.history, &config); /* every level 0 */
-    belt_observer_init(&model.observer);
-    prediction.inlet.carried.survival = BELT_REAL(1);
-    prediction.inlet.pace = belt_march_pace(&model.line, BELT_REAL(0));
-}
+#include "march_case.h"
 
 void setUp(void) {
     config = paper_case();

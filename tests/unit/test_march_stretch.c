@@ -2,25 +2,7 @@
 /* One stretch by itself, at the outlet: what leaves of each of its two cells, and how it looks ahead. */
 #include "belt/march_stretch.h"
 
-#include "paper_case.h"
-#include "reals.h"
-#include "unity.h"
-
-#include <string.h>
-
-static belt_config_t config;
-static belt_model_t model;
-static belt_prediction_t prediction;
-
-/** The march at the outlet, the window empty, no level and no congestion. */
-static void begin(void) {
-    memset(&model, 0, sizeof model);
-    memset(&prediction, 0, sizeof prediction);
-    belt_line_init(&model.line, &config);
-    belt_level_history_init(&model.history, &config);
-    prediction.inlet.carried.survival = BELT_REAL(1);
-    prediction.inlet.pace = belt_line_slowness(&model.line, BELT_REAL(0)) * model.line.spacing;
-}
+#include "march_case.h"
 
 /* Pieces of a stretch where the equations are summed up. */
 #define FINE 2000
